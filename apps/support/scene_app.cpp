@@ -1,0 +1,102 @@
+#include "scene_app.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <optional>
+
+#include "coupling/checkpoint.h"
+#include "coupling/errors.h"
+#include "coupling/plan.h"
+#include "coupling/run.h"
+
+using namespace vesiflow::coupling;
+
+namespace {
+
+struct Arguments {
+  std::string scene;
+  std::string directory;
+  std::string checkpoint;
+  Overrides overrides;
+  int threads = omp_get_max_threads();
+  bool plan = false;
+  bool quiet = false;
+};
+
+void declare(CLI::App& command_line, Arguments& arguments) {
+  command_line.add_option("scene", arguments.scene, "scene file (docs/scene.md); with --restart it may be left out");
+  command_line.add_option("--out", arguments.directory, "folder for the results (default out/NAME_OF_SCENE)");
+  command_line.add_option("--set", arguments.overrides, "override a key of the scene: --set time.end=2.0 (repeatable)")
+      ->allow_extra_args(false);
+  command_line.add_option("--threads", arguments.threads, "threads (default: all cores)")->check(CLI::Range(1, 1024));
+  command_line.add_option("--restart", arguments.checkpoint, "continue from this checkpoint.h5");
+  command_line.add_flag("--plan", arguments.plan, "print what would be computed and written, then exit");
+  command_line.add_flag("--quiet", arguments.quiet, "no progress");
+}
+
+Scene scene_of(const Arguments& arguments) {
+  if (!arguments.scene.empty()) return load_scene(arguments.scene, arguments.overrides);
+  if (arguments.checkpoint.empty()) throw SceneError("a scene file is needed (or --restart with a checkpoint)");
+  const Scene stored = read_checkpoint_scene(arguments.checkpoint);
+  return parse_scene(to_toml(stored), arguments.checkpoint, arguments.overrides);
+}
+
+void require_flow(const SceneApp& app, const Scene& scene, const std::string& file) {
+  if (scene.flow.type == app.flow) return;
+  const bool shear = app.flow == FlowType::shear;
+  throw SceneError(fmt::format("{}: flow.type = \"{}\": {} computes \"{}\" only; use the app {}", file,
+                               shear ? "rest" : "shear", app.name, shear ? "shear" : "rest",
+                               shear ? "relaxation" : "shear_flow"));
+}
+
+std::filesystem::path directory_of(const Arguments& arguments) {
+  if (!arguments.directory.empty()) return arguments.directory;
+  if (arguments.scene.empty()) return std::filesystem::absolute(arguments.checkpoint).parent_path();
+  return std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem();
+}
+
+// Threads that wait by spinning cost more than they compute when cores are shared, and the OpenMP runtime reads its
+// wait policy before main: where the user has not chosen one, start again with a passive one.
+void wait_passively(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  execv("/proc/self/exe", argv);  // returns only if it fails; then the run is slower, not wrong
+}
+
+}  // namespace
+
+int run_scene_app(const SceneApp& app, int argc, char** argv) {
+  Arguments arguments;
+  CLI::App command_line(app.description, app.name);
+  declare(command_line, arguments);
+  try {
+    command_line.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return command_line.exit(error) == 0 ? exit_code::success : exit_code::bad_input;
+  }
+  wait_passively(argv);
+
+  const std::string name = arguments.scene.empty() ? arguments.checkpoint : arguments.scene;
+  const Scene scene = scene_of(arguments);
+  require_flow(app, scene, name);
+  omp_set_num_threads(arguments.threads);
+  if (arguments.plan) {
+    fmt::print("{}", describe_plan(scene, arguments.threads));
+    return exit_code::success;
+  }
+
+  Simulation simulation(scene);
+  RunOptions options;
+  options.program = app.name;
+  options.scene_file = name;
+  options.directory = directory_of(arguments);
+  if (!arguments.checkpoint.empty()) options.checkpoint = arguments.checkpoint;
+  options.quiet = arguments.quiet;
+  const RunStatus status = run(simulation, options);
+  if (!arguments.quiet) fmt::print("results in {}\n", options.directory.string());
+  return status == RunStatus::completed ? exit_code::success : exit_code::interrupted;
+}

@@ -1,0 +1,41 @@
+# vesiflow_library(NAME): the target Vesiflow::NAME from lib<NAME>/include and lib<NAME>/src, with the
+# project's language level, warnings and code generation. Callers add sources and link dependencies.
+include(GNUInstallDirs)
+
+function(vesiflow_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
+    -fno-math-errno -fno-trapping-math
+    $<$<CONFIG:Release>:-O3>
+    $<$<BOOL:${VESIFLOW_NATIVE}>:-march=native>
+    $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
+    $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)
+  if(VESIFLOW_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+  if(VESIFLOW_COVERAGE)
+    target_link_options(${target} PUBLIC --coverage)
+  endif()
+endfunction()
+
+function(vesiflow_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES")
+  add_library(${name} ${arg_SOURCES})
+  add_library(Vesiflow::${name} ALIAS ${name})
+  vesiflow_compile_options(${name})
+  set_target_properties(${name} PROPERTIES
+    OUTPUT_NAME vesiflow_${name}
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}
+    POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${name}
+    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
+    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  install(TARGETS ${name} EXPORT Vesiflow_${name}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow)
+endfunction()

@@ -1,0 +1,26 @@
+# Every choice a builder has, in one place.
+set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
+  "Libraries to build: any of vesicle, fluid, coupling (coupling needs the other two)")
+option(VESIFLOW_NATIVE "Use this machine's vector instructions (-march=native)" ON)
+option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (libcoupling)" ON)
+option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
+option(VESIFLOW_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
+option(VESIFLOW_BUILD_APPS "Build the apps (needs libcoupling)" ${PROJECT_IS_TOP_LEVEL})
+option(VESIFLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(VESIFLOW_BUILD_BENCH "Build the benchmarks" OFF)
+
+if("coupling" IN_LIST VESIFLOW_LIBRARIES)
+  foreach(needed vesicle fluid)
+    if(NOT needed IN_LIST VESIFLOW_LIBRARIES)
+      message(FATAL_ERROR "VESIFLOW_LIBRARIES: coupling needs ${needed}; add it to the list")
+    endif()
+  endforeach()
+endif()
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+endif()

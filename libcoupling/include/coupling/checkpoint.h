@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "coupling/scene.h"
+#include "coupling/simulation.h"
+
+namespace vesiflow::coupling {
+
+/// Writes what a continued run needs, the scene included (HDF5). The file appears complete or not at all.
+/// \throws FileError when it cannot be written
+void write_checkpoint(const std::filesystem::path& file, const Simulation& simulation);
+
+/// The scene a checkpoint was made with.
+/// \throws SceneError when the file cannot be read
+Scene read_checkpoint_scene(const std::filesystem::path& file);
+
+/// Puts `simulation` in the state of the checkpoint: from there it goes on bit for bit as the run that wrote it.
+/// \throws SceneError when the file is unreadable or damaged, or naming the key when the two scenes differ in anything
+/// but title, time.end, limits and output
+void restore_checkpoint(const std::filesystem::path& file, Simulation& simulation);
+
+}  // namespace vesiflow::coupling

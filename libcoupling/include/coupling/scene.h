@@ -1,0 +1,117 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vesicle/curvature_laplacian.h"
+#include "vesicle/membrane.h"
+#include "vesicle/mesh_control.h"
+
+namespace vesiflow::coupling {
+
+enum class Preset { standard, paper };
+enum class FlowType { rest, shear };
+enum class FlowStart { flow, rest };
+enum class Shape { sphere, prolate, oblate, ellipsoid };
+
+/// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
+struct VesicleScene {
+  Shape shape = Shape::prolate;
+  std::optional<double> reduced_volume;         ///< of a prolate or oblate, in (0.3, 1]
+  std::optional<double> aspect_ratio;           ///< of a prolate or oblate: long over short axis, >= 1
+  std::optional<std::array<double, 3>> axes;    ///< of an ellipsoid: ratios of its axes along x, y, z
+  double radius = 1.0;                          ///< effective radius (3V/4 pi)^(1/3)
+  std::array<double, 3> centre{0.0, 0.0, 0.0};
+  std::array<double, 3> rotation_axis{0.0, 1.0, 0.0};
+  double rotation_deg = 0.0;                    ///< turns the shape, whose symmetry axis is z, about rotation_axis
+};
+
+/// Everything a scene file can say, with its defaults. docs/scene.md documents each key; names there and here are
+/// the same. Dimensionless groups are the paper's (section 3.1): Re = rho r^2/(mu_o t_c), Ca = mu_o r^3/(c_b t_c).
+struct Scene {
+  std::string title;
+  struct Method {
+    Preset preset = Preset::standard;
+  } method;
+  struct Domain {
+    std::array<double, 3> lower{-6.0, -6.0, -6.0};
+    std::array<double, 3> upper{6.0, 6.0, 6.0};
+    std::array<int, 3> cells{64, 64, 64};
+  } domain;
+  struct Flow {
+    FlowType type = FlowType::shear;
+    double rate = 1.0;                          ///< shear rate: u = (rate z, 0, 0)
+    FlowStart start = FlowStart::flow;
+  } flow;
+  struct Fluid {
+    double reynolds_number = 1e-3;
+    double viscosity_ratio = 1.0;
+    bool convection = true;
+  } fluid;
+  struct Membrane {
+    double capillary_number = 2.5;
+    double sigma0 = 600.0;
+    std::optional<double> g;                    ///< dt sigma0/(4 mu h): another way to give sigma0
+    vesicle::VolumeControl volume = vesicle::VolumeControl::projection;
+    double volume_stiffness = 1e5;              ///< c_v of Eq. (22), for volume = penalty
+    vesicle::LaplacianForm laplacian = vesicle::LaplacianForm::cartesian;
+  } membrane;
+  struct Mesh {
+    int latitudes = 32;
+    vesicle::FilterOrder filter = vesicle::FilterOrder::velocity_first;
+    int normal_degrees = 0;                     ///< degrees kept in the velocity that shapes; 0: two thirds
+    int tangential_degrees = 15;                ///< degrees kept in the velocity along the membrane
+  } mesh;
+  struct Time {
+    double step = 1.0 / 192.0;
+    double end = 8.0;
+    std::string markers = "euler";
+  } time;
+  struct Limits {
+    double local_area_error = 0.5;              ///< the run stops beyond it
+  } limits;
+  struct Output {                               ///< intervals in time; 0 is never
+    double diagnostics_every = 0.05;
+    double vesicle_every = 0.5;
+    double fluid_every = 4.0;
+    double checkpoint_every = 1.0;
+  } output;
+  std::vector<VesicleScene> vesicles;
+
+  /// Largest grid spacing.
+  double spacing() const;
+  /// g = dt sigma0/(4 mu h), the number that decides whether the explicit tension is stable (below 7 to 8).
+  double tension_number() const;
+  /// Steps from 0 to time.end, the last one at or just beyond it.
+  long steps() const;
+};
+
+/// `name=value` pairs as given with `--set`; keys are dotted, vesicles by number: `vesicles.0.reduced_volume=0.8`.
+using Overrides = std::vector<std::string>;
+
+/// Reads and checks a scene.
+/// \throws SceneError naming file, line, key, value and what is allowed
+Scene load_scene(const std::filesystem::path& file, const Overrides& overrides = {});
+
+/// The same from text; `name` stands for the file in messages.
+Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides = {});
+
+/// Checks what no single key can be blamed for: vesicles inside the box, a usable time step, groups of keys.
+/// Called by load_scene; programs that fill a Scene themselves call it too.
+void check_scene(const Scene& scene, const std::string& name);
+
+/// The scene as a TOML file with every key; parses back to the same scene.
+std::string to_toml(const Scene& scene);
+
+/// One key of a scene file, for documentation and its test.
+struct SceneKey {
+  std::string name;           ///< dotted
+  std::string default_value;  ///< as written in TOML; empty where there is none
+  std::string allowed;
+};
+std::vector<SceneKey> scene_keys();
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "coupling/marker_integrator.h"
+#include "coupling/marker_transfer.h"
+#include "coupling/scene.h"
+#include "fluid/navier_stokes.h"
+#include "vesicle/diagnostics.h"
+#include "vesicle/membrane.h"
+
+namespace vesiflow::coupling {
+
+/// Wall seconds spent in each phase of the steps since construction.
+struct PhaseSeconds {
+  double membrane = 0.0;          ///< geometry and forces
+  double spread = 0.0;            ///< clearing, weights, spreading
+  double fluid_convection = 0.0;  ///< explicit right-hand side
+  double fluid_momentum = 0.0;    ///< three velocity solves
+  double fluid_projection = 0.0;  ///< pressure solve and correction
+  double interpolate = 0.0;
+  double mesh = 0.0;              ///< velocity filter, move, target areas
+  double diagnostics = 0.0;
+};
+
+/// Everything a run needs to go on as if it had not been interrupted.
+struct VesicleState {
+  vesicle::MembraneState membrane;
+  std::vector<double> integrator_history;
+};
+struct SimulationState {
+  fluid::FaceVector velocity, previous_velocity;
+  fluid::Field<fluid::Cell> pressure;
+  fluid::FluidClock clock;
+  std::vector<VesicleState> vesicles;
+};
+
+/// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
+class Simulation {
+ public:
+  /// The scene as it starts, with the flow it names.
+  /// \throws SceneError for a scene that cannot be computed
+  explicit Simulation(const Scene& scene);
+  /// The same with a boundary velocity of one's own instead of the scene's flow; it is also the initial velocity
+  /// if flow.start = "flow". `steady` says that it does not depend on time.
+  Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// One time step of the scene's length (Steps 1 to 5 of the paper).
+  /// \throws SimulationStopped when the state is not finite, a limit is passed or a marker meets a wall
+  void step();
+
+  double time() const { return fluid_.time(); }
+  long steps() const { return static_cast<long>(fluid_.steps()); }
+  const Scene& scene() const { return scene_; }
+
+  /// Measures of every vesicle at the present time.
+  std::vector<vesicle::Diagnostics> measure();
+  /// Greatest |div u| of the fluid; round-off when all is well.
+  double max_divergence() const;
+
+  const fluid::NavierStokes& fluid() const { return fluid_; }
+  std::size_t vesicle_count() const { return vesicles_.size(); }
+  /// Membrane with its geometry and forces at the present time.
+  const vesicle::Membrane& membrane(std::size_t vesicle);
+  /// Interpolated fluid velocity that moved the markers in the last step (markers x 3).
+  const vesicle::VectorField& marker_velocity(std::size_t vesicle) const;
+  PhaseSeconds phase_seconds() const;
+
+  SimulationState state() const;
+  /// \throws std::invalid_argument when the state belongs to another grid or mesh
+  void restore(const SimulationState& state);
+
+ private:
+  struct ImmersedVesicle;
+
+  void compute_forces();
+  void advance_fluid();
+  void move_markers();
+  void check_limits(std::size_t vesicle) const;
+  void interpolate_initial_velocity();
+
+  Scene scene_;
+  fluid::NavierStokes fluid_;
+  std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
+  PhaseSeconds seconds_;
+};
+
+/// The boundary velocity of the scene's flow.
+fluid::BoundaryVelocity flow_of(const Scene& scene);
+/// The scene's box as a grid.
+fluid::Grid grid_of(const Scene& scene);
+/// The scene's fluid parameters.
+fluid::FluidParameters fluid_parameters_of(const Scene& scene);
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,175 @@
+#include "coupling/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "atomic_file.h"
+#include "coupling/errors.h"
+#include "hdf5_file.h"
+#include "scene_keys.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+constexpr std::int64_t format_version = 1;
+
+template <class Centring>
+void write_field(Hdf5File& file, const std::string& name, const fluid::Field<Centring>& field) {
+  file.write(name, field.data(),
+             {static_cast<std::uint64_t>(field.extent(2) + 2), static_cast<std::uint64_t>(field.extent(1) + 2),
+              static_cast<std::uint64_t>(field.extent(0) + 2)});
+}
+
+void write_velocity(Hdf5File& file, const std::string& name, const fluid::FaceVector& u) {
+  write_field(file, name + "/x", u.x);
+  write_field(file, name + "/y", u.y);
+  write_field(file, name + "/z", u.z);
+}
+
+void write_array(Hdf5File& file, const std::string& name, const double* values, Eigen::Index size) {
+  file.write(name, values, {static_cast<std::uint64_t>(size)});
+}
+
+void read_into(const Hdf5File& file, const std::string& name, double* values, std::size_t size,
+               const std::filesystem::path& path) {
+  const std::vector<double> read = file.read(name);
+  if (read.size() != size)
+    throw FileError(fmt::format("{}: {} has {} values, expected {}: the checkpoint is damaged", path.string(), name,
+                                read.size(), size));
+  std::ranges::copy(read, values);
+}
+
+template <class Centring>
+void read_field(const Hdf5File& file, const std::string& name, fluid::Field<Centring>& field,
+                const std::filesystem::path& path) {
+  read_into(file, name, field.data(), field.size(), path);
+}
+
+void read_velocity(const Hdf5File& file, const std::string& name, fluid::FaceVector& u,
+                   const std::filesystem::path& path) {
+  read_field(file, name + "/x", u.x, path);
+  read_field(file, name + "/y", u.y, path);
+  read_field(file, name + "/z", u.z, path);
+}
+
+void write_vesicle(Hdf5File& file, const std::string& group, const VesicleState& state) {
+  const auto& m = state.membrane;
+  write_array(file, group + "/positions", m.positions.data(), m.positions.size());
+  write_array(file, group + "/target_areas", m.target_areas.data(), m.target_areas.size());
+  write_array(file, group + "/initial_areas", m.initial_areas.data(), m.initial_areas.size());
+  file.attribute(group, "initial_volume", m.initial_volume);
+  if (!state.integrator_history.empty())
+    write_array(file, group + "/integrator_history", state.integrator_history.data(),
+                static_cast<Eigen::Index>(state.integrator_history.size()));
+}
+
+VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
+                          const std::filesystem::path& path) {
+  VesicleState state;
+  auto& m = state.membrane;
+  m.positions.resize(markers, 3);
+  m.target_areas.resize(markers);
+  m.initial_areas.resize(markers);
+  const auto size = static_cast<std::size_t>(markers);
+  read_into(file, group + "/positions", m.positions.data(), 3 * size, path);
+  read_into(file, group + "/target_areas", m.target_areas.data(), size, path);
+  read_into(file, group + "/initial_areas", m.initial_areas.data(), size, path);
+  m.initial_volume = file.read_number(group, "initial_volume");
+  if (file.exists(group + "/integrator_history"))
+    state.integrator_history = file.read(group + "/integrator_history");
+  return state;
+}
+
+// What may differ between the run that wrote a checkpoint and the one that continues it.
+bool may_differ(const std::string& key) {
+  return key == "title" || key == "time.end" || key.starts_with("limits.") || key.starts_with("output.");
+}
+
+void check_same_scene(const Scene& written, const Scene& now, const std::filesystem::path& path) {
+  const auto before = scene_values(written), after = scene_values(now);
+  for (const auto& [key, value] : before) {
+    if (may_differ(key)) continue;
+    const auto other = after.find(key);
+    const std::string other_value = other == after.end() ? "absent" : other->second;
+    if (other_value != value)
+      throw SceneError(fmt::format("{}: was written with {} = {}, this scene has {}; a restart keeps everything but title, "
+                                   "time.end, limits and output",
+                                   path.string(), key, value, other_value));
+  }
+  if (after.size() > before.size())
+    throw SceneError(fmt::format("{}: was written with {} vesicles, this scene has {}", path.string(),
+                                 written.vesicles.size(), now.vesicles.size()));
+}
+
+Scene scene_of(const Hdf5File& file, const std::filesystem::path& path) {
+  if (file.read_integer("/", "format") != format_version)
+    throw FileError(fmt::format("{}: checkpoint of format {}, this version reads format {}", path.string(),
+                                file.read_integer("/", "format"), format_version));
+  return parse_scene(file.read_text("/", "scene"), path.string());
+}
+
+// To a reader an unusable checkpoint is bad input, like a wrong scene: nothing of the user's has been touched.
+template <class Read>
+auto as_input(const Read& read) {
+  try {
+    return read();
+  } catch (const FileError& error) {
+    throw SceneError(error.what());
+  }
+}
+
+SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
+  const fluid::Grid grid = grid_of(scene);
+  SimulationState state{fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}};
+  state.clock = {.time = file.read_number("/", "time"),
+                 .previous_time = file.read_number("/", "previous_time"),
+                 .time_step = file.read_number("/", "time_step"),
+                 .steps = file.read_integer("/", "steps")};
+  read_velocity(file, "/velocity", state.velocity, path);
+  read_velocity(file, "/previous_velocity", state.previous_velocity, path);
+  read_field(file, "/pressure", state.pressure, path);
+  const Eigen::Index markers = 2L * scene.mesh.latitudes * scene.mesh.latitudes;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), markers, path));
+  return state;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Simulation& simulation) {
+  const SimulationState state = simulation.state();
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    Hdf5File file(temporary, Hdf5File::Mode::create);
+    file.attribute("/", "format", format_version);
+    file.attribute("/", "scene", to_toml(simulation.scene()));
+    file.attribute("/", "time", state.clock.time);
+    file.attribute("/", "previous_time", state.clock.previous_time);
+    file.attribute("/", "time_step", state.clock.time_step);
+    file.attribute("/", "steps", static_cast<std::int64_t>(state.clock.steps));
+    write_velocity(file, "/velocity", state.velocity);
+    write_velocity(file, "/previous_velocity", state.previous_velocity);
+    write_field(file, "/pressure", state.pressure);
+    for (std::size_t i = 0; i < state.vesicles.size(); ++i)
+      write_vesicle(file, fmt::format("/vesicle_{}", i), state.vesicles[i]);
+  });
+}
+
+Scene read_checkpoint_scene(const std::filesystem::path& path) {
+  return as_input([&] { return scene_of(Hdf5File(path, Hdf5File::Mode::read), path); });
+}
+
+void restore_checkpoint(const std::filesystem::path& path, Simulation& simulation) {
+  const SimulationState state = as_input([&] {
+    const Hdf5File file(path, Hdf5File::Mode::read);
+    check_same_scene(scene_of(file, path), simulation.scene(), path);
+    return read_state(file, simulation.scene(), path);
+  });
+  try {
+    simulation.restore(state);
+  } catch (const std::invalid_argument& error) {
+    throw SceneError(fmt::format("{}: the checkpoint is damaged: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace vesiflow::coupling

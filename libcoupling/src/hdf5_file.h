@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vesiflow::coupling {
+
+/// The few things this library asks of HDF5. Names of groups and datasets are absolute paths; missing groups are
+/// made. Every failure is a FileError naming the file and the object. Built without HDF5, opening a file throws.
+class Hdf5File {
+ public:
+  enum class Mode { create, append, read };
+  using Shape = std::vector<std::uint64_t>;
+
+  Hdf5File(const std::filesystem::path& path, Mode mode);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  void write(const std::string& name, const double* values, const Shape& shape);
+  void write(const std::string& name, const float* values, const Shape& shape);
+  void write(const std::string& name, const std::int32_t* values, const Shape& shape);
+  void attribute(const std::string& group, const std::string& name, double value);
+  void attribute(const std::string& group, const std::string& name, std::int64_t value);
+  void attribute(const std::string& group, const std::string& name, const std::vector<double>& values);
+  void attribute(const std::string& group, const std::string& name, const std::string& value);
+
+  std::vector<double> read(const std::string& name) const;
+  Shape shape(const std::string& name) const;
+  double read_number(const std::string& group, const std::string& name) const;
+  std::int64_t read_integer(const std::string& group, const std::string& name) const;
+  std::string read_text(const std::string& group, const std::string& name) const;
+
+  bool exists(const std::string& name) const;
+  std::vector<std::string> children(const std::string& group) const;
+  void remove(const std::string& name);
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::filesystem::path path_;
+  std::int64_t file_ = -1;
+};
+
+/// Whether this build can write and read HDF5.
+bool have_hdf5();
+
+}  // namespace vesiflow::coupling

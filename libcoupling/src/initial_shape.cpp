@@ -1,0 +1,80 @@
+#include "initial_shape.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "coupling/errors.h"
+#include "vesicle/shapes.h"
+#include "vesicle/sphere_grid.h"
+#include "vesicle/surface.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+// Solid angle under which a closed surface is seen from a point, over 4 pi: 1 inside, 0 outside.
+double winding_number(const vesicle::Surface& surface, const vesicle::Vector3& point) {
+  double sum = 0.0;
+  for (Eigen::Index m = 0; m < surface.positions().rows(); ++m) {
+    const vesicle::Vector3 r = surface.positions().row(m).matrix().transpose() - point;
+    const double distance = r.norm();
+    sum += r.dot(surface.normal().row(m).matrix()) * surface.area_weight()(m) / (distance * distance * distance);
+  }
+  return sum / (4.0 * std::numbers::pi);
+}
+
+bool boxes_meet(const vesicle::VectorField& a, const vesicle::VectorField& b) {
+  return (a.colwise().minCoeff() <= b.colwise().maxCoeff()).all() &&
+         (b.colwise().minCoeff() <= a.colwise().maxCoeff()).all();
+}
+
+bool meets(const vesicle::Surface& surface, const vesicle::VectorField& markers) {
+  for (Eigen::Index m = 0; m < markers.rows(); ++m)
+    if (winding_number(surface, markers.row(m).matrix().transpose()) > 0.5) return true;
+  return false;
+}
+
+}  // namespace
+
+vesicle::VectorField initial_markers(const VesicleScene& scene, int latitudes) {
+  const vesicle::SphereGrid grid(latitudes);
+  vesicle::Placement placement;
+  placement.effective_radius = scene.radius;
+  placement.centre = vesicle::Vector3(scene.centre.data());
+  placement.rotation = Eigen::AngleAxisd(scene.rotation_deg * std::numbers::pi / 180.0,
+                                         vesicle::Vector3(scene.rotation_axis.data()).normalized())
+                           .toRotationMatrix();
+  switch (scene.shape) {
+    case Shape::prolate:
+      return scene.reduced_volume ? vesicle::prolate(grid, *scene.reduced_volume, placement)
+                                  : vesicle::spheroid(grid, *scene.aspect_ratio, placement);
+    case Shape::oblate:
+      return scene.reduced_volume ? vesicle::oblate(grid, *scene.reduced_volume, placement)
+                                  : vesicle::spheroid(grid, 1.0 / *scene.aspect_ratio, placement);
+    case Shape::ellipsoid:
+      return vesicle::ellipsoid(grid, vesicle::Vector3(scene.axes->data()), placement);
+    case Shape::sphere:
+      break;
+  }
+  return vesicle::sphere(grid, placement);
+}
+
+void check_apart(const Scene& scene, const std::string& name) {
+  std::vector<vesicle::VectorField> markers;
+  for (const VesicleScene& vesicle : scene.vesicles) markers.push_back(initial_markers(vesicle, scene.mesh.latitudes));
+  for (std::size_t a = 0; a < markers.size(); ++a) {
+    vesicle::Surface surface(scene.mesh.latitudes);
+    bool updated = false;
+    for (std::size_t b = 0; b < markers.size(); ++b) {
+      if (a == b || !boxes_meet(markers[a], markers[b])) continue;
+      if (!updated) surface.update(markers[a]);
+      updated = true;
+      if (meets(surface, markers[b]))
+        throw SceneError(fmt::format("{}: vesicles.{} and vesicles.{} overlap; move one of them (centre)", name,
+                                     std::min(a, b), std::max(a, b)));
+    }
+  }
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,64 @@
+#include "coupling/marker_integrator.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace vesiflow::coupling {
+namespace {
+
+class Euler final : public MarkerIntegrator {
+ public:
+  explicit Euler(std::size_t size) : velocity_(size) {}
+
+  void advance(double dt, const MarkerVelocity& velocity, std::span<double> state) override {
+    velocity(state, velocity_);
+    for (std::size_t i = 0; i < state.size(); ++i) state[i] += dt * velocity_[i];
+  }
+
+ private:
+  std::vector<double> velocity_;
+};
+
+class AdamsBashforth2 final : public MarkerIntegrator {
+ public:
+  explicit AdamsBashforth2(std::size_t size) : velocity_(size), previous_(size) {}
+
+  void advance(double dt, const MarkerVelocity& velocity, std::span<double> state) override {
+    velocity(state, velocity_);
+    if (dt == previous_dt_) {
+      for (std::size_t i = 0; i < state.size(); ++i) state[i] += dt * (1.5 * velocity_[i] - 0.5 * previous_[i]);
+    } else {
+      for (std::size_t i = 0; i < state.size(); ++i) state[i] += dt * velocity_[i];
+    }
+    std::swap(velocity_, previous_);
+    previous_dt_ = dt;
+  }
+
+  std::span<const double> history() const override {
+    if (previous_dt_ == 0.0) return {};
+    return previous_;
+  }
+
+  void restore_history(double dt, std::span<const double> history) override {
+    if (history.size() != previous_.size())
+      throw std::invalid_argument("ab2: history of " + std::to_string(history.size()) + " values, expected " +
+                                  std::to_string(previous_.size()));
+    std::ranges::copy(history, previous_.begin());
+    previous_dt_ = dt;
+  }
+
+ private:
+  std::vector<double> velocity_, previous_;
+  double previous_dt_ = 0.0;  // of the step that made previous_; 0 before the first
+};
+
+}  // namespace
+
+std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size) {
+  if (name == "euler") return std::make_unique<Euler>(size);
+  if (name == "ab2") return std::make_unique<AdamsBashforth2>(size);
+  throw std::invalid_argument("marker integrator '" + std::string(name) + "': allowed are euler, ab2");
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,116 @@
+#include "coupling/plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "coupling/simulation.h"
+#include "vesicle/mesh_control.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+std::string interval(double every) { return every > 0.0 ? fmt::format("every {:g}", every) : "never"; }
+
+// Working arrays of one membrane, among them the doubled grid of the Laplacian of H and the Legendre tables.
+double membrane_bytes(int latitudes) {
+  const double markers = 2.0 * latitudes * latitudes, doubled = 4.0 * markers;
+  const double tables = 3.0 * 8.0 * (std::pow(latitudes, 3) / 2.0 + std::pow(2 * latitudes, 3));
+  return 8.0 * (70.0 * markers + 40.0 * doubled) + tables;
+}
+
+class Plan {
+ public:
+  void head(const std::string& text) { text_ += text + "\n"; }
+  template <class... Values>
+  void line(const char* label, fmt::format_string<Values...> format, Values&&... values) {
+    text_ += fmt::format("  {:<22}", label) + fmt::format(format, std::forward<Values>(values)...) + "\n";
+  }
+  // A part of the step that is done, or skipped with the reason.
+  void part(bool done, const char* label, const std::string& what, const std::string& why_not) {
+    text_ += fmt::format("  {} {:<20}{}\n", done ? "+" : "-", label, done ? what : "skipped: " + why_not);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+void describe_resolution(Plan& plan, const Scene& scene, int threads) {
+  const auto& c = scene.domain.cells;
+  const double h = scene.spacing();
+  const auto vesicles = static_cast<double>(scene.vesicles.size());
+  const auto fluid_bytes =
+      static_cast<double>(fluid::NavierStokes::estimate_memory(grid_of(scene), fluid_parameters_of(scene)));
+  plan.head("Resolution");
+  plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
+  plan.line("membranes", "{} of {} x {} markers, spacing about {:.2f} h at the equator of a sphere",
+            scene.vesicles.size(), scene.mesh.latitudes, 2 * scene.mesh.latitudes,
+            M_PI / scene.mesh.latitudes / h);
+  plan.line("time", "{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
+  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below 7 to 8{}", scene.tension_number(),
+            scene.tension_number() > 7.0 ? "  <- WARNING: beyond it" : "");
+  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})",
+            1e-6 * (fluid_bytes + vesicles * membrane_bytes(scene.mesh.latitudes)), 1e-6 * fluid_bytes,
+            1e-6 * vesicles * membrane_bytes(scene.mesh.latitudes));
+  plan.line("threads", "{}", threads);
+}
+
+void describe_step(Plan& plan, const Scene& scene) {
+  const bool tension = scene.membrane.sigma0 > 0.0;
+  const bool shear = scene.flow.type == FlowType::shear;
+  const int normal = scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees
+                                                   : vesicle::two_thirds_degrees(scene.mesh.latitudes);
+  plan.head("Each step");
+  plan.part(true, "geometry", fmt::format("spherical harmonics of {} degrees", scene.mesh.latitudes), "");
+  plan.part(true, "bending",
+            scene.membrane.laplacian == vesicle::LaplacianForm::cartesian
+                ? "Laplacian of H by Cartesian gradients on the doubled grid"
+                : "Laplacian of H by Eq. (14) on the doubled grid, truncated (paper)",
+            "");
+  plan.part(tension, "tension", fmt::format("log tension, divergence form, sigma0 = {:g}", scene.membrane.sigma0),
+            "membrane.sigma0 = 0");
+  plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
+            fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness), "membrane.volume is not \"penalty\"");
+  plan.part(true, "spread, interpolate", "smoothed 4-point delta, in the bounding box of the markers", "");
+  plan.part(scene.fluid.convection, "convection", "skew-symmetric, extrapolated", "fluid.convection = false");
+  plan.part(true, "viscosity", "implicit, constant coefficient: three fast direct solves (fft)", "");
+  plan.part(false, "indicator, variable viscosity", "", "fluid.viscosity_ratio = 1");
+  plan.part(true, "pressure", "one fast direct solve (fft), rotational correction", "");
+  plan.part(shear, "wall velocity", "steady shear, evaluated once", "flow.type = \"rest\"");
+  plan.part(true, "mesh control",
+            fmt::format("{}: normal velocity {} degrees, tangential {}",
+                        scene.mesh.filter == vesicle::FilterOrder::velocity_first
+                            ? "velocity filtered, then split"
+                            : "normal and tangential velocity filtered apart (paper)",
+                        normal, scene.mesh.tangential_degrees),
+            "");
+  plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
+            "exact, of the marker velocity", "membrane.volume is not \"projection\"");
+  plan.part(true, "markers", scene.time.markers, "");
+  plan.part(tension, "target areas", "Eqs. (32), (33)", "membrane.sigma0 = 0");
+}
+
+void describe_output(Plan& plan, const Scene& scene) {
+  const auto& o = scene.output;
+  const double cells = 1.0 * scene.domain.cells[0] * scene.domain.cells[1] * scene.domain.cells[2];
+  const double snapshots = o.fluid_every > 0.0 ? std::floor(scene.time.end / o.fluid_every) + 1.0 : 0.0;
+  plan.head("Output (intervals in time)");
+  plan.line("diagnostics.csv", "{}", interval(o.diagnostics_every));
+  plan.line("vesicle.h5", "{}", interval(o.vesicle_every));
+  plan.line("fluid.h5", "{}, in all about {:.0f} MB", interval(o.fluid_every), 16e-6 * cells * snapshots);
+  plan.line("checkpoint.h5", "{} and at the end, about {:.0f} MB", interval(o.checkpoint_every), 56e-6 * cells);
+}
+
+}  // namespace
+
+std::string describe_plan(const Scene& scene, int threads) {
+  Plan plan;
+  if (!scene.title.empty()) plan.head(scene.title);
+  describe_resolution(plan, scene, threads);
+  describe_step(plan, scene);
+  describe_output(plan, scene);
+  return plan.text();
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,81 @@
+#include "progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace vesiflow::coupling {
+namespace {
+
+std::string duration(double seconds) {
+  const long s = std::lround(seconds);
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{}:{:02d} min", s / 60, s % 60);
+  return fmt::format("{}:{:02d} h", s / 3600, s / 60 % 60);
+}
+
+std::string bar(double fraction) {
+  constexpr int width = 24;
+  const int full = std::clamp(static_cast<int>(fraction * width), 0, width);
+  return "[" + std::string(static_cast<std::size_t>(full), '#') +
+         std::string(static_cast<std::size_t>(width - full), '.') + "]";
+}
+
+// The vesicle that drifts most speaks for all.
+std::string drift(Simulation& simulation) {
+  double area = 0.0, volume = 0.0;
+  for (std::size_t i = 0; i < simulation.vesicle_count(); ++i) {
+    const vesicle::Membrane& m = simulation.membrane(i);
+    const double a = m.surface().area() / m.initial_area() - 1.0, v = m.surface().volume() / m.initial_volume() - 1.0;
+    if (!(std::abs(a) <= std::abs(area))) area = a;
+    if (!(std::abs(v) <= std::abs(volume))) volume = v;
+  }
+  return fmt::format("area {:+.1e}, volume {:+.1e}", area, volume);
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet, long first_step, long last_step)
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      first_step_(first_step),
+      last_step_(last_step),
+      start_(Clock::now()),
+      last_shown_(start_) {}
+
+void Progress::update(Simulation& simulation) {
+  if (quiet_) return;
+  const Clock::time_point now = Clock::now();
+  const bool last = simulation.steps() == last_step_;
+  const auto interval = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(5000);
+  if (last || now - last_shown_ >= interval) show(simulation, now);
+}
+
+void Progress::show(Simulation& simulation, Clock::time_point now) {
+  last_shown_ = now;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const auto done = static_cast<double>(simulation.steps() - first_step_);
+  const double per_step = seconds / done;
+  const std::string text =
+      fmt::format("step {}/{}, t = {:.3f}, {:.3g} s/step, {} left, {}", simulation.steps(), last_step_,
+                  simulation.time(), per_step, duration(per_step * static_cast<double>(last_step_ - simulation.steps())),
+                  drift(simulation));
+  if (terminal_) {
+    const double fraction = static_cast<double>(simulation.steps()) / static_cast<double>(last_step_);
+    fmt::print(stderr, "\r{} {:3.0f} % {}\033[K", bar(fraction), 100.0 * fraction, text);
+    bar_shown_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", text);
+  }
+  std::fflush(stderr);
+}
+
+void Progress::finish() {
+  if (bar_shown_) fmt::print(stderr, "\n");
+  bar_shown_ = false;
+}
+
+}  // namespace vesiflow::coupling

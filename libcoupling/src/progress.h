@@ -1,0 +1,31 @@
+#pragma once
+
+#include <chrono>
+
+#include "coupling/simulation.h"
+
+namespace vesiflow::coupling {
+
+/// Shows how far a run is on standard error: a bar that renews itself on a terminal, a line every few seconds on a
+/// pipe, nothing when quiet.
+class Progress {
+ public:
+  Progress(bool quiet, long first_step, long last_step);
+  /// Called after every step; prints only when it is time to.
+  void update(Simulation& simulation);
+  /// Ends the bar's line, so that other text can follow.
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void show(Simulation& simulation, Clock::time_point now);
+
+  bool quiet_;
+  bool terminal_;
+  bool bar_shown_ = false;
+  long first_step_, last_step_;
+  Clock::time_point start_, last_shown_;
+};
+
+}  // namespace vesiflow::coupling

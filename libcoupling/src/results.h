@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "coupling/run.h"
+#include "coupling/simulation.h"
+
+namespace vesiflow::coupling {
+
+/// What summary.json says of the run besides the state of the simulation.
+struct RunRecord {
+  std::string status = "running";
+  std::optional<std::string> stop_reason;
+  long steps_taken = 0;         ///< by this process
+  double wall_seconds = 0.0;    ///< of these steps, output included
+  double output_seconds = 0.0;
+};
+
+/// Makes the directory and finds out whether files can be written there, before anything is computed.
+/// \throws FileError
+void prepare_directory(const std::filesystem::path& directory);
+
+/// Moves the results of an earlier run to previous_N/. Returns where, or nothing if there were none.
+std::optional<std::filesystem::path> move_earlier_results(const std::filesystem::path& directory);
+
+void write_summary(const std::filesystem::path& directory, const RunOptions& options, Simulation& simulation,
+                   const RunRecord& record);
+
+/// diagnostics.csv: one whole line per vesicle and time, appended at once.
+class DiagnosticsTable {
+ public:
+  explicit DiagnosticsTable(std::filesystem::path directory);
+  void write(Simulation& simulation);
+  /// Removes the rows after `step`: a restarted run writes them again.
+  void rewind(long step);
+  long last_step() const { return last_step_; }
+
+ private:
+  std::filesystem::path file_;
+  long last_step_ = -1;
+};
+
+}  // namespace vesiflow::coupling

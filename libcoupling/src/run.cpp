@@ -1,0 +1,208 @@
+#include "coupling/run.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <cmath>
+#include <cstdio>
+
+#include "atomic_file.h"
+#include "coupling/checkpoint.h"
+#include "coupling/errors.h"
+#include "phase_timer.h"
+#include "progress.h"
+#include "results.h"
+#include "snapshot_files.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+std::atomic<bool> interrupt_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // may be set in a signal handler
+
+// Turns Ctrl-C and SIGTERM into a request to stop after the step under way. A second one kills as usual.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    interrupt_requested = false;
+    old_interrupt_ = std::signal(SIGINT, request);
+    old_terminate_ = std::signal(SIGTERM, request);
+  }
+  ~InterruptGuard() {
+    std::signal(SIGINT, old_interrupt_);
+    std::signal(SIGTERM, old_terminate_);
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  static void request(int signal) {
+    interrupt_requested = true;
+    std::signal(signal, SIG_DFL);
+  }
+  void (*old_interrupt_)(int);
+  void (*old_terminate_)(int);
+};
+
+// Whether a multiple of `every` was passed by the step that ended at `time`.
+bool due(double every, double time, double dt) {
+  if (every <= 0.0) return false;
+  return std::floor((time + 0.5 * dt) / every) > std::floor((time - 0.5 * dt) / every);
+}
+
+class Run {
+ public:
+  Run(Simulation& simulation, const RunOptions& options)
+      : simulation_(simulation), options_(options), directory_(options.directory) {}
+
+  RunStatus execute();
+
+ private:
+  std::filesystem::path checkpoint_file() const { return directory_ / "checkpoint.h5"; }
+  bool continues_own_directory() const {
+    std::error_code error;
+    return options_.checkpoint && std::filesystem::equivalent(*options_.checkpoint, checkpoint_file(), error);
+  }
+
+  void start();
+  void rewind_files();
+  void record(bool last);
+  void checkpoint();
+  void finish(const std::string& status);
+  [[noreturn]] void stop(const SimulationStopped& reason);
+
+  Simulation& simulation_;
+  const RunOptions& options_;
+  std::filesystem::path directory_;
+  std::optional<DiagnosticsTable> table_;
+  std::optional<VesicleSnapshots> vesicle_snapshots_;
+  std::optional<FluidSnapshots> fluid_snapshots_;
+  std::optional<std::filesystem::path> last_checkpoint_;
+  long checkpointed_step_ = 0;  // the start needs none
+  RunRecord record_;
+};
+
+void Run::start() {
+  if (options_.checkpoint) {
+    restore_checkpoint(*options_.checkpoint, simulation_);
+    last_checkpoint_ = *options_.checkpoint;
+    spdlog::info("continuing from {} at step {}, t = {:.6g}", options_.checkpoint->string(), simulation_.steps(),
+                 simulation_.time());
+  }
+  prepare_directory(directory_);
+  const bool own = continues_own_directory();
+  if (own) checkpointed_step_ = simulation_.steps();
+  if (!own) {
+    if (const auto moved = move_earlier_results(directory_)) {
+      spdlog::info("earlier results were moved to {}", moved->string());
+      if (options_.checkpoint && !std::filesystem::exists(*options_.checkpoint)) last_checkpoint_.reset();
+    }
+  }
+  table_.emplace(directory_);
+  vesicle_snapshots_.emplace(directory_);
+  fluid_snapshots_.emplace(directory_);
+  if (own) rewind_files();
+  write_text_atomically(directory_ / "scene.toml", to_toml(simulation_.scene()));
+  write_summary(directory_, options_, simulation_, record_);
+}
+
+// A run that went on after its last checkpoint has left rows and snapshots that will be computed again.
+void Run::rewind_files() {
+  const long step = simulation_.steps();
+  table_->rewind(step);
+  vesicle_snapshots_->rewind(step);
+  fluid_snapshots_->rewind(step);
+}
+
+void Run::checkpoint() {
+  write_checkpoint(checkpoint_file(), simulation_);
+  last_checkpoint_ = checkpoint_file();
+  checkpointed_step_ = simulation_.steps();
+  write_summary(directory_, options_, simulation_, record_);
+}
+
+// Writes what is due at the present time; at the end everything that is written at all.
+void Run::record(bool last) {
+  const PhaseTimer timer(record_.output_seconds);
+  const Scene::Output& output = simulation_.scene().output;
+  const long step = simulation_.steps();
+  const double time = simulation_.time(), dt = simulation_.scene().time.step;
+  const auto wanted = [&](double every) { return every > 0.0 && (last || step == 0 || due(every, time, dt)); };
+  if (wanted(output.diagnostics_every) && table_->last_step() < step) table_->write(simulation_);
+  if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) vesicle_snapshots_->write(simulation_);
+  if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) fluid_snapshots_->write(simulation_);
+  if (wanted(output.checkpoint_every) && checkpointed_step_ < step) checkpoint();
+}
+
+void Run::finish(const std::string& status) {
+  record_.status = status;
+  write_summary(directory_, options_, simulation_, record_);
+}
+
+void Run::stop(const SimulationStopped& reason) {
+  const std::string message = fmt::format(
+      "stopped in step {} at t = {:.6g}: {}\n  likely cause: {}\n  last good checkpoint: {}", simulation_.steps() + 1,
+      simulation_.time(), reason.what(), reason.advice(), last_checkpoint_ ? last_checkpoint_->string() : "none yet");
+  record_.stop_reason = message;
+  finish("stopped");
+  throw SimulationStopped(message, reason.advice());
+}
+
+RunStatus Run::execute() {
+  start();
+  const InterruptGuard guard;
+  const long last = simulation_.scene().steps();
+  Progress progress(options_.quiet, simulation_.steps(), last);
+  try {
+    PhaseTimer timer(record_.wall_seconds);
+    record(simulation_.steps() >= last);
+  } catch (const SimulationStopped& reason) {
+    stop(reason);
+  }
+  while (simulation_.steps() < last && !interrupt_requested) {
+    try {
+      const PhaseTimer timer(record_.wall_seconds);
+      simulation_.step();
+      ++record_.steps_taken;
+      progress.update(simulation_);
+      record(simulation_.steps() == last);
+    } catch (const SimulationStopped& reason) {
+      progress.finish();
+      stop(reason);
+    }
+  }
+  progress.finish();
+  const bool completed = simulation_.steps() >= last;
+  if (!completed) record(true);
+  finish(completed ? "completed" : "interrupted");
+  return completed ? RunStatus::completed : RunStatus::interrupted;
+}
+
+}  // namespace
+
+RunStatus run(Simulation& simulation, const RunOptions& options) { return Run(simulation, options).execute(); }
+
+int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));
+  spdlog::set_pattern("%^%l%$: %v");
+  try {
+    return program(argc, argv);
+  } catch (const SceneError& error) {
+    spdlog::error("{}", error.what());
+    return exit_code::bad_input;
+  } catch (const SimulationStopped& error) {
+    spdlog::error("{}", error.what());
+    return exit_code::stopped;
+  } catch (const FileError& error) {
+    spdlog::error("{}", error.what());
+    return exit_code::file_error;
+  } catch (const std::exception& error) {
+    spdlog::error("internal error: {}", error.what());
+    return exit_code::internal_error;
+  }
+}
+
+}  // namespace vesiflow::coupling

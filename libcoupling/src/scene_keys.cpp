@@ -1,0 +1,109 @@
+#include "scene_keys.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "coupling/marker_integrator.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+template <class Enum>
+void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::initializer_list<std::string_view> names) {
+  int index = static_cast<int>(value);
+  visitor.choice(key, index, {names.begin(), names.size()});
+  value = static_cast<Enum>(index);
+}
+
+void choice_of_name(KeyVisitor& visitor, std::string_view key, std::string& value,
+                    std::span<const std::string_view> names) {
+  int index = 0;
+  while (names[static_cast<std::size_t>(index)] != value) ++index;
+  visitor.choice(key, index, names);
+  value = names[static_cast<std::size_t>(index)];
+}
+
+}  // namespace
+
+bool Range::contains(double value) const {
+  return std::isfinite(value) && (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+}
+
+std::string Range::describe() const {
+  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+  if (has_low && has_high) return fmt::format("in {}{:g}, {:g}{}", low_open ? '(' : '[', low, high, high_open ? ')' : ']');
+  if (has_low) return fmt::format("{} {:g}", low_open ? ">" : ">=", low);
+  if (has_high) return fmt::format("{} {:g}", high_open ? "<" : "<=", high);
+  return "a finite number";
+}
+
+void visit_preset(Scene& scene, KeyVisitor& v) {
+  choice_of(v, "method.preset", scene.method.preset, {"standard", "paper"});
+}
+
+void apply_preset(Scene& scene) {
+  if (scene.method.preset != Preset::paper) return;
+  scene.membrane.volume = vesicle::VolumeControl::penalty;
+  scene.membrane.laplacian = vesicle::LaplacianForm::paper;
+  scene.mesh.filter = vesicle::FilterOrder::components;
+}
+
+void visit_keys(Scene& scene, KeyVisitor& v) {
+  v.text("title", scene.title);
+  visit_preset(scene, v);
+
+  v.vector("domain.lower", scene.domain.lower, Range::any());
+  v.vector("domain.upper", scene.domain.upper, Range::any());
+  v.cells("domain.cells", scene.domain.cells, Range::between(8, 2048));
+
+  choice_of(v, "flow.type", scene.flow.type, {"rest", "shear"});
+  v.number("flow.rate", scene.flow.rate, Range::any());
+  choice_of(v, "flow.start", scene.flow.start, {"flow", "rest"});
+
+  v.number("fluid.reynolds_number", scene.fluid.reynolds_number, Range::positive());
+  v.number("fluid.viscosity_ratio", scene.fluid.viscosity_ratio, Range::positive());
+  v.flag("fluid.convection", scene.fluid.convection);
+
+  v.number("membrane.capillary_number", scene.membrane.capillary_number, Range::positive());
+  v.number("membrane.sigma0", scene.membrane.sigma0, Range::from(0.0));
+  v.optional_number("membrane.g", scene.membrane.g, Range::positive());
+  choice_of(v, "membrane.volume", scene.membrane.volume, {"none", "penalty", "projection"});
+  v.number("membrane.volume_stiffness", scene.membrane.volume_stiffness, Range::from(0.0));
+  choice_of(v, "membrane.laplacian", scene.membrane.laplacian, {"cartesian", "paper"});
+
+  v.integer("mesh.latitudes", scene.mesh.latitudes, Range::between(8, 256));
+  choice_of(v, "mesh.filter", scene.mesh.filter, {"velocity", "components"});
+  v.integer("mesh.normal_degrees", scene.mesh.normal_degrees, Range::from(0));
+  v.integer("mesh.tangential_degrees", scene.mesh.tangential_degrees, Range::from(2));
+
+  v.number("time.step", scene.time.step, Range::positive());
+  v.number("time.end", scene.time.end, Range::positive());
+  choice_of_name(v, "time.markers", scene.time.markers, marker_integrators);
+
+  v.number("limits.local_area_error", scene.limits.local_area_error, Range::positive());
+
+  v.number("output.diagnostics_every", scene.output.diagnostics_every, Range::from(0.0));
+  v.number("output.vesicle_every", scene.output.vesicle_every, Range::from(0.0));
+  v.number("output.fluid_every", scene.output.fluid_every, Range::from(0.0));
+  v.number("output.checkpoint_every", scene.output.checkpoint_every, Range::from(0.0));
+}
+
+void visit_keys(VesicleScene& vesicle, KeyVisitor& v) {
+  choice_of(v, "shape", vesicle.shape, {"sphere", "prolate", "oblate", "ellipsoid"});
+  v.optional_number("reduced_volume", vesicle.reduced_volume, {.low = 0.3, .high = 1.0});
+  v.optional_number("aspect_ratio", vesicle.aspect_ratio, Range::between(1.0, 20.0));
+  v.optional_vector("axes", vesicle.axes, Range::positive());
+  v.number("radius", vesicle.radius, Range::positive());
+  v.vector("centre", vesicle.centre, Range::any());
+  v.vector("rotation_axis", vesicle.rotation_axis, Range::any());
+  v.number("rotation_deg", vesicle.rotation_deg, Range::any());
+}
+
+std::string toml_number(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,226 @@
+#include "coupling/simulation.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "coupling/errors.h"
+#include "fluid/operators.h"
+#include "initial_shape.h"
+#include "phase_timer.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
+  vesicle::MembraneParameters parameters;
+  parameters.capillary_number = scene.membrane.capillary_number;
+  parameters.sigma0 = scene.membrane.sigma0;
+  parameters.laplacian = scene.membrane.laplacian;
+  parameters.volume = scene.membrane.volume;
+  parameters.volume_stiffness = scene.membrane.volume_stiffness;
+  parameters.filter = scene.mesh.filter;
+  parameters.normal_degrees = scene.mesh.normal_degrees;
+  parameters.tangential_degrees = scene.mesh.tangential_degrees;
+  return parameters;
+}
+
+std::string blow_up_advice(const Scene& scene) {
+  return fmt::format(
+      "the explicit tension is unstable above g = dt sigma0/(4 mu h) of 7 to 8, and this scene has g = {:.3g}: reduce "
+      "time.step or membrane.sigma0; if g is well below that, the mesh is too coarse for the shape (more "
+      "mesh.latitudes) or the vesicle too deflated",
+      scene.tension_number());
+}
+
+}  // namespace
+
+struct Simulation::ImmersedVesicle {
+  ImmersedVesicle(const VesicleScene& shape, const Scene& scene)
+      : membrane(initial_markers(shape, scene.mesh.latitudes), scene.mesh.latitudes, membrane_parameters(scene)),
+        transfer(grid_of(scene)),
+        positions(membrane.positions()),
+        velocity(vesicle::VectorField::Zero(positions.rows(), 3)),
+        mesh_velocity(vesicle::VectorField::Zero(positions.rows(), 3)),
+        integrator(make_marker_integrator(scene.time.markers, static_cast<std::size_t>(positions.size()))) {}
+
+  // Geometry and forces at the present positions; looking at a vesicle between two steps costs the next step nothing.
+  void update() {
+    if (is_current) return;
+    membrane.update_geometry();
+    membrane.compute_force();
+    is_current = true;
+  }
+
+  vesicle::Membrane membrane;
+  MarkerTransfer transfer;
+  vesicle::VectorField positions;      // X
+  vesicle::VectorField velocity;       // U, interpolated from the fluid
+  vesicle::VectorField mesh_velocity;  // U~, filtered
+  std::unique_ptr<MarkerIntegrator> integrator;
+  MarkerVelocity filtered_fluid_velocity;  // what the integrator asks for; made once, so that steps do not allocate
+  bool is_current = false;
+};
+
+fluid::Grid grid_of(const Scene& scene) { return {scene.domain.lower, scene.domain.upper, scene.domain.cells}; }
+
+fluid::FluidParameters fluid_parameters_of(const Scene& scene) {
+  fluid::FluidParameters parameters;
+  parameters.reynolds_number = scene.fluid.reynolds_number;
+  parameters.viscosity = scene.fluid.viscosity_ratio;
+  parameters.convection = scene.fluid.convection;
+  return parameters;
+}
+
+fluid::BoundaryVelocity flow_of(const Scene& scene) {
+  const double rate = scene.flow.type == FlowType::shear ? scene.flow.rate : 0.0;
+  return [rate](const fluid::Vector3& x, double) { return fluid::Vector3{rate * x[2], 0.0, 0.0}; };
+}
+
+Simulation::Simulation(const Scene& scene) : Simulation(scene, flow_of(scene), true) {}
+
+Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady)
+    : scene_(scene), fluid_(grid_of(scene), fluid_parameters_of(scene), flow, steady) {
+  check_scene(scene_, "scene");
+  if (scene_.flow.start == FlowStart::flow)
+    fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow(x, 0.0); });
+  for (const VesicleScene& shape : scene_.vesicles) {
+    ImmersedVesicle& v = *vesicles_.emplace_back(std::make_unique<ImmersedVesicle>(shape, scene_));
+    v.filtered_fluid_velocity = [this, &v](std::span<const double> state, std::span<double> velocity) {
+      v.transfer.update(Eigen::Map<const vesicle::VectorField>(state.data(), v.positions.rows(), 3));
+      {
+        const PhaseTimer timer(seconds_.interpolate);
+        v.transfer.interpolate(fluid_.velocity(), v.velocity);
+      }
+      v.membrane.filter_velocity(v.velocity, scene_.time.step, v.mesh_velocity);
+      Eigen::Map<vesicle::VectorField>(velocity.data(), v.positions.rows(), 3) = v.mesh_velocity;
+    };
+  }
+  interpolate_initial_velocity();
+}
+
+Simulation::~Simulation() = default;
+
+void Simulation::step() {
+  try {
+    compute_forces();  // Steps 1 and 2: coefficients, geometry, forces, spreading
+    advance_fluid();   // Step 3: Navier-Stokes
+    move_markers();    // Steps 4 and 5: interpolation, mesh control, markers, target areas
+  } catch (const std::domain_error& error) {
+    throw SimulationStopped(error.what(), blow_up_advice(scene_));
+  }
+}
+
+void Simulation::compute_forces() {
+  {
+    const PhaseTimer timer(seconds_.spread);
+    for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
+  }
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    ImmersedVesicle& v = *vesicles_[i];
+    {
+      const PhaseTimer timer(seconds_.membrane);
+      v.update();
+      check_limits(i);
+    }
+    const PhaseTimer timer(seconds_.spread);
+    v.transfer.update(v.positions);
+    v.transfer.spread(v.membrane.force(), v.membrane.surface().area_weight(), fluid_.force());
+  }
+}
+
+void Simulation::advance_fluid() {
+  try {
+    fluid_.step(scene_.time.step);
+  } catch (const std::runtime_error& error) {
+    throw SimulationStopped(error.what(), blow_up_advice(scene_));
+  }
+}
+
+void Simulation::move_markers() {
+  const double dt = scene_.time.step;
+  for (auto& v : vesicles_) {
+    const PhaseTimer timer(seconds_.mesh);
+    const std::span<double> state(v->positions.data(), static_cast<std::size_t>(v->positions.size()));
+    v->integrator->advance(dt, v->filtered_fluid_velocity, state);
+    v->membrane.advance(v->positions, v->velocity, v->mesh_velocity, dt);
+    v->is_current = false;
+  }
+}
+
+void Simulation::check_limits(std::size_t i) const {
+  const vesicle::Membrane& membrane = vesicles_[i]->membrane;
+  if (membrane.parameters().sigma0 == 0.0) return;  // nothing holds local areas, so nothing is promised of them
+  const double worst = (membrane.surface().area_weight() / membrane.target_areas() - 1.0).abs().maxCoeff();
+  if (!(worst <= scene_.limits.local_area_error))
+    throw SimulationStopped(fmt::format("the local area error of vesicle {} is {:.3g}, above limits.local_area_error = {:g}",
+                                        i, worst, scene_.limits.local_area_error),
+                            blow_up_advice(scene_));
+}
+
+void Simulation::interpolate_initial_velocity() {
+  for (auto& v : vesicles_) {
+    v->transfer.update(v->positions);
+    v->transfer.interpolate(fluid_.velocity(), v->velocity);
+    v->membrane.filter_velocity(v->velocity, scene_.time.step, v->mesh_velocity);
+  }
+}
+
+std::vector<vesicle::Diagnostics> Simulation::measure() {
+  const PhaseTimer timer(seconds_.diagnostics);
+  std::vector<vesicle::Diagnostics> all;
+  for (std::size_t i = 0; i < vesicles_.size(); ++i)
+    all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocity, vesicles_[i]->mesh_velocity));
+  return all;
+}
+
+double Simulation::max_divergence() const { return fluid::max_divergence(fluid_.velocity()); }
+
+const vesicle::Membrane& Simulation::membrane(std::size_t i) {
+  try {
+    vesicles_.at(i)->update();
+  } catch (const std::domain_error& error) {
+    throw SimulationStopped(error.what(), blow_up_advice(scene_));
+  }
+  return vesicles_[i]->membrane;
+}
+
+const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const { return vesicles_.at(i)->velocity; }
+
+PhaseSeconds Simulation::phase_seconds() const {
+  PhaseSeconds all = seconds_;
+  all.mesh -= all.interpolate;  // interpolation is asked for inside the move
+  all.fluid_convection = fluid_.timings().convection;
+  all.fluid_momentum = fluid_.timings().momentum;
+  all.fluid_projection = fluid_.timings().projection;
+  return all;
+}
+
+SimulationState Simulation::state() const {
+  SimulationState state{fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(),
+                        fluid_.clock(), {}};
+  for (const auto& v : vesicles_) {
+    const auto history = v->integrator->history();
+    state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}});
+  }
+  return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  if (state.vesicles.size() != vesicles_.size())
+    throw std::invalid_argument(fmt::format("the state has {} vesicles, the scene {}", state.vesicles.size(),
+                                            vesicles_.size()));
+  fluid_.restore(state.velocity, state.previous_velocity, state.pressure, state.clock);
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    ImmersedVesicle& v = *vesicles_[i];
+    v.membrane.restore(state.vesicles[i].membrane);
+    v.positions = v.membrane.positions();
+    v.is_current = false;
+    if (!state.vesicles[i].integrator_history.empty())
+      v.integrator->restore_history(scene_.time.step, state.vesicles[i].integrator_history);
+  }
+  interpolate_initial_velocity();
+}
+
+}  // namespace vesiflow::coupling

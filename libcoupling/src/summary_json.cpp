@@ -1,0 +1,87 @@
+#include <omp.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "atomic_file.h"
+#include "build_info.h"
+#include "results.h"
+#include "scene_keys.h"
+#include "vesicle_record.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+// A scene value as TOML writes it is JSON as well.
+Json parameters_of(const Scene& scene) {
+  Json all = Json::object();
+  for (const auto& [key, value] : scene_values(scene)) all[key] = Json::parse(value);
+  return all;
+}
+
+Json vesicle_of(const vesicle::Diagnostics& diagnostics) {
+  Json entry;
+  visit_record(diagnostics, [&](std::string_view name, const double* values, int length) {
+    if (length == 1) {
+      entry[std::string(name)] = finite_or_null(values[0]);
+    } else {
+      for (int i = 0; i < length; ++i) entry[std::string(name)].push_back(finite_or_null(values[i]));
+    }
+  });
+  return entry;
+}
+
+Json phases_of(const PhaseSeconds& s, double output_seconds) {
+  return {{"membrane", s.membrane},
+          {"spread", s.spread},
+          {"fluid_convection", s.fluid_convection},
+          {"fluid_momentum", s.fluid_momentum},
+          {"fluid_projection", s.fluid_projection},
+          {"interpolate", s.interpolate},
+          {"mesh", s.mesh},
+          {"diagnostics", s.diagnostics},
+          {"output", output_seconds}};
+}
+
+// A state that has blown up may not be measurable any more.
+Json vesicles_of(Simulation& simulation) {
+  Json list = Json::array();
+  try {
+    for (const auto& diagnostics : simulation.measure()) list.push_back(vesicle_of(diagnostics));
+  } catch (const std::exception&) {
+    for (std::size_t i = 0; i < simulation.vesicle_count(); ++i) list.push_back(nullptr);
+  }
+  return list;
+}
+
+}  // namespace
+
+void write_summary(const std::filesystem::path& directory, const RunOptions& options, Simulation& simulation,
+                   const RunRecord& record) {
+  Json summary;
+  summary["format"] = 1;
+  summary["status"] = record.status;
+  summary["stop_reason"] = record.stop_reason ? Json(*record.stop_reason) : Json(nullptr);
+  summary["program"] = options.program;
+  summary["version"] = VESIFLOW_VERSION;
+  summary["git_revision"] = VESIFLOW_GIT_REVISION;
+  summary["scene"] = options.scene_file;
+  summary["parameters"] = parameters_of(simulation.scene());
+  summary["threads"] = omp_get_max_threads();
+  summary["steps"] = simulation.steps();
+  summary["time"] = simulation.time();
+  summary["time_step"] = simulation.scene().time.step;
+  summary["wall_seconds"] = record.wall_seconds;
+  summary["seconds_per_step"] =
+      record.steps_taken > 0 ? Json(record.wall_seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);
+  summary["vesicles"] = vesicles_of(simulation);
+  summary["max_divergence"] = finite_or_null(simulation.max_divergence());
+  summary["phase_seconds"] = phases_of(simulation.phase_seconds(), record.output_seconds);
+  write_text_atomically(directory / "summary.json", summary.dump(2) + "\n");
+}
+
+}  // namespace vesiflow::coupling

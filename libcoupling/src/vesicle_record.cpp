@@ -1,0 +1,28 @@
+#include "vesicle_record.h"
+
+#include <numbers>
+
+namespace vesiflow::coupling {
+
+void visit_record(const vesicle::Diagnostics& d,
+                  const std::function<void(std::string_view, const double*, int)>& visit) {
+  const auto number = [&](std::string_view name, double value) { visit(name, &value, 1); };
+  number("inclination_angle_deg", d.inclination_angle * 180.0 / std::numbers::pi);
+  number("tank_treading_frequency", d.tank_treading_frequency);
+  number("area_error", d.area_error);
+  number("volume_error", d.volume_error);
+  number("max_local_area_error", d.max_local_area_error);
+  number("max_label_area_error", d.max_label_area_error);
+  number("surface_divergence_max", d.surface_divergence_max);
+  number("bending_energy", d.bending_energy);
+  number("reduced_volume", d.reduced_volume);
+  number("area", d.area);
+  number("volume", d.volume);
+  visit("centroid", d.centroid.data(), 3);
+  visit("semi_axes", d.semi_axes.data(), 3);
+  number("tension_min", d.tension_min);
+  number("tension_max", d.tension_max);
+  number("spectrum_tail", d.spectrum_tail);
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include "atomic_file.h"
+#include "snapshot_files.h"
+#include "snapshot_series.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+constexpr std::int64_t format_version = 1;
+
+std::uint64_t points_of(int latitudes) { return 2ULL * latitudes * latitudes + 2; }
+std::uint64_t triangles_of(int latitudes) { return 4ULL * latitudes * latitudes; }
+
+// Two triangles per mesh cell and a fan around each pole, all counter-clockwise seen from outside.
+std::vector<std::int32_t> triangles(int latitudes) {
+  const int longitudes = 2 * latitudes, north = latitudes * longitudes, south = north + 1;
+  std::vector<std::int32_t> list;
+  list.reserve(3 * triangles_of(latitudes));
+  const auto at = [longitudes](int j, int i) { return j * longitudes + i % longitudes; };
+  for (int i = 0; i < longitudes; ++i) list.insert(list.end(), {north, at(0, i), at(0, i + 1)});
+  for (int j = 0; j + 1 < latitudes; ++j) {
+    for (int i = 0; i < longitudes; ++i) {
+      list.insert(list.end(), {at(j, i), at(j + 1, i), at(j + 1, i + 1)});
+      list.insert(list.end(), {at(j, i), at(j + 1, i + 1), at(j, i + 1)});
+    }
+  }
+  for (int i = 0; i < longitudes; ++i) list.insert(list.end(), {south, at(latitudes - 1, i + 1), at(latitudes - 1, i)});
+  return list;
+}
+
+// Values at the markers followed by the two poles. A smooth function at a pole is the mean over a small ring up to the
+// square of its radius; two rings remove that term.
+class WithPoles {
+ public:
+  explicit WithPoles(const vesicle::SphereGrid& grid) : grid_(grid) {
+    const double a = grid.sin_colatitude()(0), b = grid.sin_colatitude()(1);
+    near_ = b * b / (b * b - a * a);
+    far_ = -a * a / (b * b - a * a);
+  }
+
+  std::vector<double> of(const vesicle::ScalarField& f) const {
+    std::vector<double> out(f.data(), f.data() + f.size());
+    out.push_back(pole(f.data(), 0, 1));
+    out.push_back(pole(f.data(), grid_.latitudes() - 1, grid_.latitudes() - 2));
+    return out;
+  }
+
+  std::vector<double> of(const vesicle::VectorField& f) const {
+    const auto points = static_cast<std::size_t>(f.rows()) + 2;
+    std::vector<double> out(3 * points);
+    for (int c = 0; c < 3; ++c) {
+      const std::vector<double> component = of(vesicle::ScalarField(f.col(c)));
+      for (std::size_t m = 0; m < points; ++m) out[3 * m + static_cast<std::size_t>(c)] = component[m];
+    }
+    return out;
+  }
+
+ private:
+  double ring_mean(const double* f, int j) const {
+    double sum = 0.0;
+    for (int i = 0; i < grid_.longitudes(); ++i) sum += f[grid_.index(i, j)];
+    return sum / grid_.longitudes();
+  }
+  double pole(const double* f, int nearest, int next) const {
+    return near_ * ring_mean(f, nearest) + far_ * ring_mean(f, next);
+  }
+
+  const vesicle::SphereGrid& grid_;
+  double near_, far_;
+};
+
+void add_vesicle(Hdf5File& file, const std::string& group, const vesicle::Membrane& membrane,
+                 const vesicle::VectorField& velocity) {
+  const vesicle::Surface& surface = membrane.surface();
+  const WithPoles with_poles(surface.grid());
+  const std::uint64_t points = points_of(surface.grid().latitudes());
+  const auto vector = [&](const char* name, const vesicle::VectorField& f) {
+    file.write(group + "/" + name, with_poles.of(f).data(), {points, 3});
+  };
+  const auto scalar = [&](const char* name, const vesicle::ScalarField& f) {
+    file.write(group + "/" + name, with_poles.of(f).data(), {points});
+  };
+  vector("positions", surface.positions());
+  vector("velocity", velocity);
+  vector("force", membrane.force());
+  scalar("tension", membrane.tension());
+  scalar("mean_curvature", surface.mean_curvature());
+  scalar("gaussian_curvature", surface.gaussian_curvature());
+  scalar("local_area_error", surface.area_weight() / membrane.target_areas() - 1.0);
+  file.attribute(group, "latitudes", static_cast<std::int64_t>(surface.grid().latitudes()));
+  file.attribute(group, "longitudes", static_cast<std::int64_t>(surface.grid().longitudes()));
+}
+
+std::string xdmf_grid(std::size_t vesicle, long step, int latitudes) {
+  const std::string base = fmt::format("vesicle.h5:{}/vesicle_{}", step_group(step), vesicle);
+  const std::uint64_t points = points_of(latitudes);
+  std::string text = fmt::format(
+      "      <Grid Name=\"vesicle_{}\">\n"
+      "        <Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\"><DataItem Format=\"HDF\" NumberType=\"Int\" "
+      "Dimensions=\"{} 3\">vesicle.h5:/topology/vesicle_{}</DataItem></Topology>\n"
+      "        <Geometry GeometryType=\"XYZ\"><DataItem Format=\"HDF\" Precision=\"8\" Dimensions=\"{} "
+      "3\">{}/positions</DataItem></Geometry>\n",
+      vesicle, triangles_of(latitudes), triangles_of(latitudes), vesicle, points, base);
+  for (const char* name : {"tension", "mean_curvature", "gaussian_curvature", "local_area_error"})
+    text += fmt::format(
+        "        <Attribute Name=\"{}\" Center=\"Node\"><DataItem Format=\"HDF\" Precision=\"8\" "
+        "Dimensions=\"{}\">{}/{}</DataItem></Attribute>\n",
+        name, points, base, name);
+  for (const char* name : {"velocity", "force"})
+    text += fmt::format(
+        "        <Attribute Name=\"{}\" AttributeType=\"Vector\" Center=\"Node\"><DataItem Format=\"HDF\" "
+        "Precision=\"8\" Dimensions=\"{} 3\">{}/{}</DataItem></Attribute>\n",
+        name, points, base, name);
+  return text + "      </Grid>\n";
+}
+
+std::string xdmf(const std::map<long, double>& steps, std::size_t vesicles, int latitudes) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+      "  <Grid Name=\"vesicles\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const auto& [step, time] : steps) {
+    text += fmt::format("    <Grid Name=\"step_{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", step);
+    text += fmt::format("      <Time Value=\"{}\"/>\n", time);
+    for (std::size_t v = 0; v < vesicles; ++v) text += xdmf_grid(v, step, latitudes);
+    text += "    </Grid>\n";
+  }
+  return text + "  </Grid>\n</Domain>\n</Xdmf>\n";
+}
+
+}  // namespace
+
+VesicleSnapshots::VesicleSnapshots(std::filesystem::path directory)
+    : directory_(std::move(directory)), steps_(stored_steps(directory_ / "vesicle.h5")) {}
+
+void VesicleSnapshots::rewind(long step) {
+  drop_after(directory_ / "vesicle.h5", step);
+  steps_.erase(steps_.upper_bound(step), steps_.end());
+}
+
+void VesicleSnapshots::write(Simulation& simulation) {
+  const int latitudes = simulation.scene().mesh.latitudes;
+  const std::size_t vesicles = simulation.vesicle_count();
+  append_snapshot(
+      directory_ / "vesicle.h5", simulation.steps(), simulation.time(),
+      [&](Hdf5File& file) {
+        file.attribute("/", "format", format_version);
+        file.attribute("/", "vesicles", static_cast<std::int64_t>(vesicles));
+        const std::vector<std::int32_t> topology = triangles(latitudes);
+        for (std::size_t v = 0; v < vesicles; ++v)
+          file.write(fmt::format("/topology/vesicle_{}", v), topology.data(), {triangles_of(latitudes), 3});
+      },
+      [&](Hdf5File& file, const std::string& group) {
+        for (std::size_t v = 0; v < vesicles; ++v)
+          add_vesicle(file, fmt::format("{}/vesicle_{}", group, v), simulation.membrane(v),
+                      simulation.marker_velocity(v));
+      });
+  steps_[simulation.steps()] = simulation.time();
+  write_text_atomically(directory_ / "vesicle.xdmf", xdmf(steps_, vesicles, latitudes));
+}
+
+}  // namespace vesiflow::coupling

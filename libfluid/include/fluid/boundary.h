@@ -1,0 +1,76 @@
+// Velocity on the walls of the box: sampled from a function, checked, and imposed on staggered fields.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "fluid/field.h"
+#include "fluid/grid.h"
+
+namespace vesiflow::fluid {
+
+// Velocity of the walls (dimensionless) at a position on a wall and a time.
+using BoundaryVelocity = std::function<Vector3(const Vector3& position, double time)>;
+
+// The Dirichlet data of the fluid velocity u on the six walls.
+//
+// A component normal to a wall has faces on it and takes the wall's value there. A tangential component has
+// points half a cell away on either side: its ghost is 2 * wall - interior. Ghosts beyond normal faces follow
+// the same line, 2 * wall face - inner face, and so do edges and corners, so that a linear flow is continued
+// exactly.
+//
+// Steady data is sampled once; other data at each call of evaluate() with a new time.
+class WallVelocity {
+ public:
+  // Samples the function at time zero; throws what evaluate() throws, and std::invalid_argument for an empty
+  // function.
+  WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool steady);
+
+  // Samples the function at the given time, unless it is steady. An incompressible fluid needs zero net flux
+  // through the walls. Data that has it is sampled at face centres with an error O(h^2); such a remainder is
+  // spread evenly over all the walls' normal velocity. Throws std::invalid_argument with the flux if it is
+  // more than max_relative_flux of the flux of |u.n|, or if a value is not finite.
+  void evaluate(double time);
+  static constexpr double max_relative_flux = 0.01;
+
+  bool steady() const { return steady_; }
+  double time() const { return time_; }
+  // Net outward flux of the sampled data, before the remainder was taken out.
+  double net_flux() const { return net_flux_; }
+
+  // Sets the faces on walls.
+  void set_normal_faces(FaceVector& u) const;
+  // Sets all ghosts from the walls and the points inside; the faces on walls must have been set.
+  void fill_ghosts(FaceVector& u) const;
+  // Adds mu times the part of the 7-point Laplacian of each component that comes from the walls to the
+  // unknowns of rhs: what the homogeneous operator of EllipticProblem leaves out.
+  void add_diffusion(double mu, FaceVector& rhs) const;
+
+ private:
+  // Values of one velocity component on one wall, at the positions of that component's points projected on
+  // the wall, one ghost position on every side included (continued linearly).
+  struct Plane {
+    int component, axis, side;
+    std::array<int, 2> extent;  // points along the two other axes, in increasing order
+    std::vector<double> values;
+    double& at(int a, int b) { return values[static_cast<std::size_t>((b + 1) * (extent[0] + 2) + a + 1)]; }
+    double at(int a, int b) const {
+      return values[static_cast<std::size_t>((b + 1) * (extent[0] + 2) + a + 1)];
+    }
+  };
+  const Plane& plane(int component, int axis, int side) const {
+    return planes_[component * 6 + axis * 2 + side];
+  }
+  void sample(Plane& plane) const;
+  void balance_flux();
+
+  Grid grid_;
+  BoundaryVelocity velocity_;
+  bool steady_;
+  double time_ = 0.0;
+  double net_flux_ = 0.0;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,52 @@
+// The four places of the staggered grid, as values (for solvers) and as types (for fields).
+#pragma once
+
+#include <array>
+
+#include "fluid/grid.h"
+
+namespace vesiflow::fluid {
+
+enum class Centring { cell, face_x, face_y, face_z };
+
+// Tags of Field: they keep quantities of different centring apart at compile time.
+struct Cell {
+  static constexpr Centring centring = Centring::cell;
+};
+struct FaceX {
+  static constexpr Centring centring = Centring::face_x;
+};
+struct FaceY {
+  static constexpr Centring centring = Centring::face_y;
+};
+struct FaceZ {
+  static constexpr Centring centring = Centring::face_z;
+};
+
+// "cell", "face_x", ... for messages.
+const char* name(Centring centring);
+
+// Whether points of this centring lie on the walls normal to the axis (true for face_x and axis 0, and so
+// on).
+constexpr bool is_face_normal(Centring centring, int axis) {
+  return static_cast<int>(centring) == axis + 1;
+}
+
+// Number of points along each axis: one per cell, and one more along the normal of a face.
+std::array<int, 3> point_extent(const Grid& grid, Centring centring);
+
+// Number of unknowns along each axis: the points that do not lie on a wall.
+std::array<int, 3> unknown_extent(const Grid& grid, Centring centring);
+
+// Position of point (i, j, k); indices outside the extent give the positions of ghosts.
+inline Vector3 point_position(const Grid& grid, Centring centring, int i, int j, int k) {
+  const std::array<int, 3> index{i, j, k};
+  Vector3 position{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double offset = is_face_normal(centring, axis) ? 0.0 : 0.5;
+    position[axis] = grid.lower[axis] + (index[axis] + offset) * grid.spacing(axis);
+  }
+  return position;
+}
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,37 @@
+// The uniform staggered (MAC) grid of a box with walls on its six sides.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace vesiflow::fluid {
+
+using Vector3 = std::array<double, 3>;
+
+// A box [lower, upper] cut into cells[0] x cells[1] x cells[2] equal cells; lengths are dimensionless (in
+// units of the vesicle's radius). The mesh width may differ from axis to axis, and any number of cells from 4
+// up is allowed.
+//
+// Where things live: pressure at cell centres; the velocity component along an axis at the centres of the
+// faces normal to it, the faces on the two walls included (see field.h).
+struct Grid {
+  static constexpr int min_cells = 4;
+
+  // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and cells >=
+  // min_cells.
+  Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells);
+
+  Vector3 lower;
+  Vector3 upper;
+  std::array<int, 3> cells;
+
+  double length(int axis) const { return upper[axis] - lower[axis]; }
+  double spacing(int axis) const { return length(axis) / cells[axis]; }
+  double min_spacing() const;
+  double cell_volume() const { return spacing(0) * spacing(1) * spacing(2); }
+  std::size_t cell_count() const;
+
+  friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+}  // namespace vesiflow::fluid

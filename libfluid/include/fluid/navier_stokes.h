@@ -1,0 +1,108 @@
+// Incompressible Navier-Stokes equations in a box: semi-implicit BDF2 with rotational incremental pressure
+// correction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "fluid/boundary.h"
+#include "fluid/elliptic_solver.h"
+#include "fluid/field.h"
+#include "fluid/grid.h"
+
+namespace vesiflow::fluid {
+
+struct FluidParameters {
+  double reynolds_number = 1.0;
+  double viscosity = 1.0;  // mu, of the implicit viscous term, in units of the reference viscosity
+  bool convection = true;  // without it the unsteady Stokes equations are solved, and nothing is spent on it
+  SolverOptions pressure_solver = FftOptions{};
+  SolverOptions velocity_solver = FftOptions{};
+};
+
+// The time levels of a state: velocity() is at time, previous_velocity() at previous_time.
+struct FluidClock {
+  double time = 0.0;
+  double previous_time = 0.0;
+  double time_step = 0.0;  // length of the last step (zero before the first)
+  std::int64_t steps = 0;
+};
+
+// Wall seconds since construction.
+struct FluidTimings {
+  double convection = 0.0;  // the explicit right-hand side, convection included
+  double momentum = 0.0;    // the three velocity solves
+  double projection = 0.0;  // divergence, pressure solve, correction, walls
+};
+
+// Solves   Re [du/dt + (u.grad)u] = -grad p + mu Lap u + f,   div u = 0,   u given on the walls.
+//
+// One step (paper, Section 3.3, Step 3; Guermond, Minev & Shen 2006, doi:10.1016/j.cma.2005.10.010), equal
+// steps:
+//   Re [(3u* - 4u^k + u^{k-1}) / (2dt) + 2N(u^k) - N(u^{k-1})] = -grad p^k + mu Lap u* + f,   u* = u^{k+1} on
+//   the walls Lap phi = a div u*,  u^{k+1} = u* - grad phi / a,  p^{k+1} = p^k + phi - mu div u*,        a =
+//   3Re / (2dt)
+// with N of operators.h. The step may change: the coefficients are those of variable-step BDF2 (stable while
+// it grows by less than a factor 1 + sqrt 2 at a time), with r = dt / previous dt
+//   (1+2r)/(1+r) u* - (1+r) u^k + r^2/(1+r) u^{k-1} over dt,   (1+r) N(u^k) - r N(u^{k-1}),   a = Re (1+2r) /
+//   ((1+r) dt).
+// The first step is backward Euler: Re [(u* - u^0)/dt + N(u^0)], a = Re / dt. The pressure starts at zero,
+// and its mean stays zero.
+//
+// Second order in space and, for u, in time. div u = 0 to round-off. Same bits for every number of threads.
+class NavierStokes {
+ public:
+  // At rest inside, moving as told on the walls, at time zero. Throws std::invalid_argument for parameters
+  // out of range, wall data with a net flux (WallVelocity) and solvers that are not available.
+  NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary,
+               bool steady_boundary = true);
+  ~NavierStokes();
+  NavierStokes(NavierStokes&&) noexcept;
+  NavierStokes& operator=(NavierStokes&&) noexcept;
+
+  // Starts anew at time zero from a velocity sampled at the faces, pressure zero. If the samples (with the
+  // walls) are not discretely divergence-free to round-off, their divergence-free part is taken.
+  void set_velocity(const std::function<Vector3(const Vector3& position)>& velocity);
+
+  // Continues from a state: the velocities and pressure at the points inside (faces on walls and ghosts are
+  // set from the walls). Fields of a run give, bit for bit, the continuation of that run. Throws
+  // std::invalid_argument if a grid differs or the clock is impossible.
+  void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
+               const FluidClock& clock);
+
+  // Force density (per volume, dimensionless) at the faces, for the coming step. It is kept, not cleared, by
+  // step(); only inner faces are read.
+  FaceVector& force();
+  const FaceVector& force() const;
+
+  // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same. Throws
+  // std::invalid_argument unless dt > 0 is finite, and std::runtime_error, with the step and the time, if the
+  // solution is not finite; the state is then lost.
+  void step(double dt);
+
+  // Velocity now and one step ago (the same before the first step); faces on walls and ghosts are set from
+  // the walls at the respective time.
+  const FaceVector& velocity() const;
+  const FaceVector& previous_velocity() const;
+  // Pressure at cell centres, of zero mean. Its ghosts are not set.
+  const Field<Cell>& pressure() const;
+
+  const FluidClock& clock() const;
+  double time() const { return clock().time; }
+  std::int64_t steps() const { return clock().steps; }
+
+  const Grid& grid() const;
+  const FluidParameters& parameters() const;
+  const FluidTimings& timings() const;
+
+  // Bytes that an object for this grid takes, solvers included. Nothing is allocated.
+  static std::size_t estimate_memory(const Grid& grid, const FluidParameters& parameters);
+
+ private:
+  class Stepper;
+  std::unique_ptr<Stepper> stepper_;
+};
+
+}  // namespace vesiflow::fluid

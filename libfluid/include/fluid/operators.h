@@ -1,0 +1,29 @@
+// Second-order difference operators of the staggered grid.
+//
+// Face results are set on the unknowns (inner faces); faces on walls and ghosts are left as they are. All
+// loops are parallel, and give the same bits for every number of threads.
+#pragma once
+
+#include "fluid/field.h"
+
+namespace vesiflow::fluid {
+
+// g = grad p: differences of neighbouring cells. With zero g on the walls, <g, u> = -<p, div u> for every u
+// that vanishes on the walls (sums over points): gradient and divergence are adjoint up to the sign.
+void gradient(const Field<Cell>& p, FaceVector& g);
+
+// d = div u at cell centres, from the six faces of each cell (those on walls included). No ghosts are read or
+// set.
+void divergence(const FaceVector& u, Field<Cell>& d);
+
+// max |div u| over the cells.
+double max_divergence(const FaceVector& u);
+
+// n = N(u) = 1/2 (u.grad)u + 1/2 div(u u), for one component c at its faces (paper, Section 3.3, Step 3):
+//   N_c = sum over axes d of [ubar_{d+} c_{d+} - ubar_{d-} c_{d-}] / (2 h_d),
+// where c_{d+-} are the neighbours along d and ubar_{d+-} the velocity along d, averaged to the points midway
+// to them. With zero walls <u, N(u)> = 0 to round-off for every discretely divergence-free *or not* u: it
+// does no work. Reads the tangential ghosts of u next to the walls (see WallVelocity::fill_ghosts).
+void convection(const FaceVector& u, FaceVector& n);
+
+}  // namespace vesiflow::fluid

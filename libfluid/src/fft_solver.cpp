@@ -1,0 +1,191 @@
+// x and y are diagonalised by fast transforms, plane by plane; what remains is a tridiagonal system in z for
+// every pair of modes. Eigenvalues are those of the difference operator, so that the solution is exact to
+// round-off.
+//
+// A solve passes three times over the data (planes forward, slabs, planes backward), each time through a
+// scratch array that fits a core's second-level cache. Every plane and slab is done by one thread in one way,
+// so the bits do not depend on the number of threads.
+#include "fft_solver.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vesiflow::fluid {
+namespace {
+
+Basis basis(const EllipticProblem& problem, int axis) {
+  if (problem.boundary == BoundaryCondition::neumann) return Basis::cosine_cells;
+  return is_face_normal(problem.centring, axis) ? Basis::sine_points : Basis::sine_cells;
+}
+
+// Eigenvalues of the one-dimensional -Laplacian, (2 sin(pi m / 2N) / h)^2; m counts from 0 for cosines, else
+// from 1.
+std::vector<double> eigenvalues(const EllipticProblem& problem, int axis) {
+  const int first_mode = problem.boundary == BoundaryCondition::neumann ? 0 : 1;
+  std::vector<double> values(problem.extent()[axis]);
+  for (int i = 0; i < static_cast<int>(values.size()); ++i) {
+    const double angle = 0.5 * std::numbers::pi * (i + first_mode) / problem.grid.cells[axis];
+    const double root = 2.0 * std::sin(angle) / problem.grid.spacing(axis);
+    values[i] = root * root;
+  }
+  return values;
+}
+
+// Whole cache lines, and an odd number of them: rows a power of two apart would compete for the same cache
+// sets.
+std::ptrdiff_t padded(int extent) {
+  return 8 * ((extent + 7) / 8 | 1);
+}
+
+}  // namespace
+
+FftSolver::Scratch::Scratch(const std::array<int, 3>& extent, std::ptrdiff_t row_stride)
+    : plane(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[1])),
+      slab(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[2])),
+      factors(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[2])),
+      column(extent[2]) {}
+
+FftSolver::FftSolver(const EllipticProblem& problem) : EllipticSolver(problem) {
+  update(problem);
+}
+
+std::size_t FftSolver::estimate_memory(const EllipticProblem& problem, int threads) {
+  const auto n = problem.extent();
+  const auto per_thread = padded(n[0]) * (n[1] + 2 * n[2]) + n[2];
+  return sizeof(double) * static_cast<std::size_t>(threads * per_thread + n[0] + n[1]);
+}
+
+void FftSolver::do_update(const EllipticProblem& problem) {
+  alpha_ = problem.alpha;
+  mu_ = problem.mu;
+  nullspace_ = problem.has_nullspace();
+  const bool planned = forward_ != nullptr && problem.same_structure(this->problem());
+  if (!planned) {
+    extent_ = problem.extent();
+    row_stride_ = padded(extent_[0]);
+    const std::array<int, 2> plane{extent_[0], extent_[1]};
+    const std::array<Basis, 2> bases{basis(problem, 0), basis(problem, 1)};
+    forward_ = std::make_unique<TransformPlan>(plane, row_stride_, bases, Direction::forward);
+    backward_ = std::make_unique<TransformPlan>(plane, row_stride_, bases, Direction::backward);
+    eigenvalues_ = {eigenvalues(problem, 0), eigenvalues(problem, 1)};
+    normalisation_ = 1.0 / (TransformPlan::pair_factor(bases[0], plane[0]) *
+                            TransformPlan::pair_factor(bases[1], plane[1]));
+    const double h = problem.grid.spacing(2);
+    z_coupling_ = 1.0 / (h * h);
+    z_end_diagonal_ = problem.end_diagonal(2);
+    scratch_.clear();
+  }
+  while (static_cast<int>(scratch_.size()) < omp_get_max_threads())
+    scratch_.emplace_back(extent_, row_stride_);
+}
+
+SolveReport FftSolver::do_solve(ConstView rhs, View x) {
+  SolveReport report;
+  const int threads = std::min(static_cast<int>(scratch_.size()), omp_get_max_threads());
+#pragma omp parallel num_threads(threads)
+  {
+    Scratch& scratch = scratch_[omp_get_thread_num()];
+#pragma omp for schedule(static)
+    for (int k = 0; k < extent_[2]; ++k) forward_plane(rhs, x, k, scratch);
+#pragma omp for schedule(static)
+    for (int j = 0; j < extent_[1]; ++j) {
+      if (nullspace_ && j == 0) report.removed_mean = solve_singular_column(x, scratch);
+      solve_slab(x, j, scratch);
+    }
+#pragma omp for schedule(static)
+    for (int k = 0; k < extent_[2]; ++k) backward_plane(x, k, scratch);
+  }
+  return report;
+}
+
+void FftSolver::forward_plane(ConstView rhs, View x, int k, Scratch& scratch) const {
+  for (int j = 0; j < extent_[1]; ++j) {
+    std::copy_n(rhs.row(j, k), extent_[0], scratch.plane.get() + j * row_stride_);
+  }
+  forward_->execute(scratch.plane.get());
+  for (int j = 0; j < extent_[1]; ++j) {
+    std::copy_n(scratch.plane.get() + j * row_stride_, extent_[0], x.row(j, k));
+  }
+}
+
+void FftSolver::backward_plane(View x, int k, Scratch& scratch) const {
+  for (int j = 0; j < extent_[1]; ++j) {
+    std::copy_n(x.row(j, k), extent_[0], scratch.plane.get() + j * row_stride_);
+  }
+  backward_->execute(scratch.plane.get());
+  for (int j = 0; j < extent_[1]; ++j) {
+    std::copy_n(scratch.plane.get() + j * row_stride_, extent_[0], x.row(j, k));
+  }
+}
+
+// Elimination along z for all modes of x at one mode j of y:
+//   -s x_{k-1} + d_k x_k - s x_{k+1} = b_k,  s = mu / h_z^2,  d_k = alpha + mu (l_x + l_y) + s (2, or the
+//   end's value).
+void FftSolver::solve_slab(View x, int j, Scratch& scratch) const {
+  const int nx = extent_[0];
+  const int nz = extent_[2];
+  const double s = mu_ * z_coupling_;
+  const double* lx = eigenvalues_[0].data();
+  const double base = alpha_ + mu_ * eigenvalues_[1][j];
+  const bool singular = nullspace_ && j == 0;
+  for (int k = 0; k < nz; ++k) {
+    const double* b = x.row(j, k);
+    double* y = scratch.slab.get() + k * row_stride_;
+    double* g = scratch.factors.get() + k * row_stride_;
+    const double shift = base + s * (k == 0 || k == nz - 1 ? z_end_diagonal_ : 2.0);
+    if (k == 0) {
+      for (int i = 0; i < nx; ++i) {
+        const double inverse = 1.0 / (shift + mu_ * lx[i]);
+        g[i] = s * inverse;
+        y[i] = normalisation_ * b[i] * inverse;
+      }
+    } else {
+      const double* y_below = y - row_stride_;
+      const double* g_below = g - row_stride_;
+      for (int i = 0; i < nx; ++i) {
+        const double inverse = 1.0 / (shift + mu_ * lx[i] - s * g_below[i]);
+        g[i] = s * inverse;
+        y[i] = (normalisation_ * b[i] + s * y_below[i]) * inverse;
+      }
+    }
+  }
+  std::copy_n(scratch.slab.get() + (nz - 1) * row_stride_, nx, x.row(j, nz - 1));
+  for (int k = nz - 2; k >= 0; --k) {
+    const double* y = scratch.slab.get() + k * row_stride_;
+    const double* g = scratch.factors.get() + k * row_stride_;
+    const double* above = x.row(j, k + 1);
+    double* out = x.row(j, k);
+    for (int i = 0; i < nx; ++i) out[i] = y[i] + g[i] * above[i];
+  }
+  if (singular) {
+    // Elimination has divided by the zero pivot in this column alone.
+    for (int k = 0; k < nz; ++k) x(0, 0, k) = scratch.column[k];
+  }
+}
+
+// The constant mode of x and y in a problem with a nullspace, where elimination would end with a zero pivot.
+// With the mean taken out of b, s (x_{k+1} - x_k) is minus the sum of b below, and the mean of x is zero.
+// Leaves the solution in scratch.column for solve_slab, and returns the mean of the right-hand side.
+double FftSolver::solve_singular_column(ConstView x, Scratch& scratch) const {
+  const int nz = extent_[2];
+  const double s = mu_ * z_coupling_;
+  double mean = 0.0;
+  for (int k = 0; k < nz; ++k) mean += normalisation_ * x(0, 0, k);
+  mean /= nz;
+  double flux = 0.0;
+  double value = 0.0;
+  double sum = 0.0;
+  for (int k = 0; k < nz; ++k) {
+    scratch.column[k] = value;
+    sum += value;
+    flux += normalisation_ * x(0, 0, k) - mean;
+    value -= flux / s;
+  }
+  for (double& v : scratch.column) v -= sum / nz;
+  return mean;
+}
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,140 @@
+#include "step_passes.h"
+
+#include <algorithm>
+
+#include "convection_row.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+// Homogeneous Neumann values next to the walls; edges and corners are not needed.
+void set_neumann_ghosts(Field<Cell>& field) {
+  const auto [nx, ny, nz] = field.extent();
+  for (int k = 0; k < nz; ++k) {
+    for (int j = 0; j < ny; ++j) {
+      double* row = field.row(j, k);
+      row[-1] = row[0];
+      row[nx] = row[nx - 1];
+    }
+    std::copy_n(field.row(0, k), nx, field.row(-1, k));
+    std::copy_n(field.row(ny - 1, k), nx, field.row(ny, k));
+  }
+  for (int j = 0; j < ny; ++j) {
+    std::copy_n(field.row(j, 0), nx, field.row(j, -1));
+    std::copy_n(field.row(j, nz - 1), nx, field.row(j, nz));
+  }
+}
+
+// u += grad chi in the faces below the cells of row (j, k).
+void add_gradient_row(const Field<Cell>& chi, const Vector3& per_h, int j, int k, FaceVector& u) {
+  const int nx = chi.extent(0);
+  const double* here = chi.row(j, k);
+  double* x = u.x.row(j, k);
+#pragma omp simd
+  for (int i = 1; i < nx; ++i) x[i] += (here[i] - here[i - 1]) * per_h[0];
+  if (j > 0) {
+    const double* below = chi.row(j - 1, k);
+    double* y = u.y.row(j, k);
+#pragma omp simd
+    for (int i = 0; i < nx; ++i) y[i] += (here[i] - below[i]) * per_h[1];
+  }
+  if (k > 0) {
+    const double* below = chi.row(j, k - 1);
+    double* z = u.z.row(j, k);
+#pragma omp simd
+    for (int i = 0; i < nx; ++i) z[i] += (here[i] - below[i]) * per_h[2];
+  }
+}
+
+Vector3 inverse_spacing(const Grid& grid) {
+  return {1.0 / grid.spacing(0), 1.0 / grid.spacing(1), 1.0 / grid.spacing(2)};
+}
+
+}  // namespace
+
+StepCoefficients step_coefficients(double dt, double previous_dt) {
+  if (previous_dt == 0.0) return {1.0, 1.0, 0.0, 1.0, 0.0};
+  const double r = dt / previous_dt;
+  return {(1.0 + 2.0 * r) / (1.0 + r), 1.0 + r, r * r / (1.0 + r), 1.0 + r, r};
+}
+
+void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt,
+                    const FaceVector& u, const Field<Cell>& pressure, const FaceVector& force,
+                    FaceVector* convection, FaceVector& previous) {
+  const Grid& grid = u.grid();
+  const double c1 = reynolds_number * coefficients.a1 / dt;
+  const double c2 = reynolds_number * coefficients.a2 / dt;
+  const double n1 = reynolds_number * coefficients.b1;
+  const double n2 = reynolds_number * coefficients.b2;
+  const Vector3 per_h = inverse_spacing(grid);
+  const std::array<std::ptrdiff_t, 3> back{1, pressure.stride(1), pressure.stride(2)};
+  const auto velocity = u.points();
+  const auto forces = force.points();
+  const auto results = previous.points();
+
+  const auto row = [&](int component, const UnknownRange& range, int j, int k) {
+    const double* c = velocity[component].row(j, k);
+    const double* p = pressure.row(j, k);
+    const double* p_below = p - back[component];
+    const double* f = forces[component].row(j, k);
+    const double slope = per_h[component];
+    double* out = results[component].row(j, k);
+#pragma omp simd
+    for (int i = range.begin[0]; i < range.end[0]; ++i) {
+      out[i] = c1 * c[i] - c2 * out[i] - (p[i] - p_below[i]) * slope + f[i];
+    }
+    if (convection == nullptr) return;
+    double* n = convection->points()[component].row(j, k);
+#pragma omp simd
+    for (int i = range.begin[0]; i < range.end[0]; ++i) out[i] += n2 * n[i];
+    convection_row(grid, velocity, component, j, k, n);
+#pragma omp simd
+    for (int i = range.begin[0]; i < range.end[0]; ++i) out[i] -= n1 * n[i];
+  };
+
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < grid.cells[2]; ++k) {
+    for (int component = 0; component < 3; ++component) {
+      const UnknownRange range = unknown_range(grid, component);
+      for (int j = range.begin[1]; j < range.end[1]; ++j) {
+        if (range.contains_row(j, k)) row(component, range, j, k);
+      }
+    }
+  }
+}
+
+void remove_divergence(const Field<Cell>& chi, FaceVector& u) {
+  const Vector3 per_h = inverse_spacing(chi.grid());
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < chi.extent(2); ++k) {
+    for (int j = 0; j < chi.extent(1); ++j) add_gradient_row(chi, per_h, j, k, u);
+  }
+}
+
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u,
+                                   Field<Cell>& pressure) {
+  set_neumann_ghosts(chi);
+  const Field<Cell>& c = chi;
+  const Vector3 per_h = inverse_spacing(chi.grid());
+  const Vector3 m{mu * per_h[0] * per_h[0], mu * per_h[1] * per_h[1], mu * per_h[2] * per_h[2]};
+  const double diagonal = a + 2.0 * (m[0] + m[1] + m[2]);
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < c.extent(2); ++k) {
+    for (int j = 0; j < c.extent(1); ++j) {
+      add_gradient_row(c, per_h, j, k, u);
+      const double* here = c.row(j, k);
+      const double* south = c.row(j - 1, k);
+      const double* north = c.row(j + 1, k);
+      const double* below = c.row(j, k - 1);
+      const double* above = c.row(j, k + 1);
+      double* p = pressure.row(j, k);
+#pragma omp simd
+      for (int i = 0; i < c.extent(0); ++i) {
+        p[i] += m[0] * (here[i - 1] + here[i + 1]) + m[1] * (south[i] + north[i]) +
+                m[2] * (below[i] + above[i]) - diagonal * here[i];
+      }
+    }
+  }
+}
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,34 @@
+// The full-grid passes of one time step of NavierStokes. They are bound by memory traffic, so each does as
+// much as it can per number read. Parallel over z planes; the same bits for every number of threads.
+#pragma once
+
+#include "fluid/field.h"
+
+namespace vesiflow::fluid {
+
+// Coefficients of Re [(a0 u* - a1 u^k + a2 u^{k-1}) / dt + b1 N(u^k) - b2 N(u^{k-1})].
+struct StepCoefficients {
+  double a0, a1, a2;
+  double b1, b2;
+};
+
+// Backward Euler for the first step (previous_dt = 0), else BDF2 with the extrapolation of the same order.
+StepCoefficients step_coefficients(double dt, double previous_dt);
+
+// The explicit terms on the inner faces, without walls:
+//   Re [(a1 u - a2 previous) / dt - b1 N(u) + b2 N(previous)] - grad p + f.
+// previous is overwritten by them. convection holds N(previous) and is overwritten by N(u); null leaves
+// convection out.
+void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt,
+                    const FaceVector& u, const Field<Cell>& pressure, const FaceVector& force,
+                    FaceVector* convection, FaceVector& previous);
+
+// Given -Lap chi = div u: u += grad chi on the inner faces.
+void remove_divergence(const Field<Cell>& chi, FaceVector& u);
+
+// The same, and the pressure update p += phi - mu div u with phi = -a chi, where div u = -Lap chi. Sets chi's
+// ghosts.
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u,
+                                   Field<Cell>& pressure);
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vesicle/membrane.h"
+#include "vesicle/surface.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// Moments of the enclosed volume, by the divergence theorem, and the ellipsoid that has the same moments.
+struct VolumeMoments {
+  double volume = 0;
+  Vector3 centroid = Vector3::Zero();
+  /// int (x - c)(x - c)^T dV.
+  Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
+  /// Semi-axes of the solid ellipsoid with these second moments scaled by the volume, longest first, and
+  /// their unit directions as columns.
+  Vector3 semi_axes = Vector3::Zero();
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
+};
+
+VolumeMoments volume_moments(const Surface& surface);
+
+/// Angle of the longest axis in the xz-plane against the x axis, radians in (-pi/2, pi/2]. NaN if the longest
+/// axis is not defined (the two longest agree to 1e-8, e.g. spheres and oblates) or points along y.
+double inclination_angle(const VolumeMoments& moments);
+
+/// Eq. (34): area average of |r x V| / |r|^2, with r from the centroid and V relative to the mean velocity of
+/// the membrane, both projected to the xz-plane; markers with |r| < 1e-3 are left out of both sums. NaN if
+/// none is left. velocity: interpolated marker velocity, shape (markers, 3).
+double tank_treading_frequency(const Surface& surface, const Vector3& centroid, const VectorField& velocity);
+
+/// Fraction of the energy of the position coefficients (degrees n >= 1) in the top third of the degrees, n >=
+/// 2N/3. Near 0 for a resolved shape; growth announces loss of resolution.
+double spectrum_tail(const Surface& surface);
+
+/// What is recorded of a membrane at one time. Errors are relative to the initial values.
+struct Diagnostics {
+  double area = 0;
+  double volume = 0;
+  double reduced_volume = 0;
+  double area_error = 0;    ///< A / A(0) - 1, signed
+  double volume_error = 0;  ///< V / V(0) - 1, signed
+  Vector3 centroid = Vector3::Zero();
+  Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
+  Vector3 semi_axes = Vector3::Zero();                       ///< longest first
+  Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();  ///< columns, as semi_axes
+  double inclination_angle = 0;                              ///< radians, see inclination_angle()
+  double tank_treading_frequency = 0;                        ///< Eq. (34)
+  double surface_divergence_max = 0;                         ///< max |div_Gamma| of the mesh velocity
+  double max_local_area_error = 0;                           ///< max |dA / dA0 - 1| against the target areas
+  double max_label_area_error = 0;  ///< max |dA / dA(0) - 1| at the same label: the column of Table 3
+  double bending_energy = 0;        ///< (1/2) int H^2 dA, without 1/Ca
+  double tension_min = 0;
+  double tension_max = 0;
+  double spectrum_tail = 0;  ///< see spectrum_tail()
+};
+
+/// Measures a membrane at its last geometry. marker_velocity: the interpolated U, for Eq. (34);
+/// mesh_velocity: the velocity whose surface divergence is reported (the paper's Table 3 uses the filtered
+/// one). Both of shape (markers, 3).
+Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity,
+                    const VectorField& mesh_velocity);
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <optional>
+
+#include "vesicle/bending.h"
+#include "vesicle/mesh_control.h"
+#include "vesicle/surface.h"
+#include "vesicle/tension.h"
+#include "vesicle/types.h"
+#include "vesicle/volume.h"
+
+namespace vesiflow::vesicle {
+
+/// How the enclosed volume is kept.
+enum class VolumeControl {
+  none,
+  penalty,    ///< the force of Eq. (22), stiffness c_v
+  projection  ///< the marker velocity is corrected, see project_volume_rate
+};
+
+struct MembraneParameters {
+  double capillary_number = 2.5;  ///< Ca > 0 of Eq. (21); infinity switches bending off
+  double sigma0 = 600;            ///< tension stiffness >= 0 of Eq. (31); 0 switches tension off
+  LaplacianForm laplacian = LaplacianForm::cartesian;
+  VolumeControl volume = VolumeControl::projection;
+  double volume_stiffness = 0;  ///< c_v >= 0 of Eq. (22), read for VolumeControl::penalty only
+  FilterOrder filter = FilterOrder::velocity_first;
+  int normal_degrees = 0;       ///< degrees kept in the normal velocity; 0: the 2N/3 rule
+  int tangential_degrees = 15;  ///< degrees kept in the tangential velocity
+};
+
+/// Everything a membrane must remember between steps; restoring it repeats an uninterrupted run bit for bit.
+struct MembraneState {
+  VectorField positions;      ///< (markers, 3)
+  ScalarField target_areas;   ///< dA0_ij now, (markers)
+  ScalarField initial_areas;  ///< dA_ij at t = 0, (markers); their sum is the initial area
+  double initial_volume = 0;
+};
+
+/// One vesicle: markers, forces per unit area, and mesh control. A step of a simulation reads
+///   update_geometry(); compute_force();   (spread, solve the fluid, interpolate U)
+///   filter_velocity(U, dt, U~); advance(X + dt U~, U, U~, dt);
+/// Nothing allocates once each of these has been called. One thread at a time per membrane.
+class Membrane {
+ public:
+  /// Takes the initial positions, shape (2 latitudes^2, 3), as the unstretched state, and updates the
+  /// geometry.
+  /// @throws std::invalid_argument for bad parameters (named, with value and range) or a wrong size;
+  /// std::domain_error as Surface::update, or if the volume is not positive (inward orientation).
+  Membrane(const VectorField& initial_positions, int latitudes, const MembraneParameters& parameters);
+
+  /// Geometry at the current positions.
+  void update_geometry();
+
+  /// Sum of the forces that are switched on, per unit area, shape (markers, 3). Uses the geometry of the last
+  /// update_geometry().
+  const VectorField& compute_force();
+
+  /// filtered = mesh filter of the interpolated velocity, then the volume projection if chosen; both
+  /// (markers, 3). The arguments must be distinct arrays.
+  void filter_velocity(const VectorField& velocity, double dt, VectorField& filtered);
+
+  /// Ends a step: updates the target areas by Eqs. (33) and (32) with the geometry of the old positions
+  /// (skipped for sigma0 = 0), then takes the new positions. The geometry stays the old one until
+  /// update_geometry(). velocity: interpolated U; filtered: the velocity U~ that moved the markers, as
+  /// averaged over the step by the integrator.
+  void advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
+               double dt);
+
+  const MembraneParameters& parameters() const { return parameters_; }
+  const Surface& surface() const { return surface_; }
+  const VectorField& positions() const { return positions_; }
+  /// Force and tension of the last compute_force(); tension is zero if sigma0 = 0. Zero before the first
+  /// call.
+  const VectorField& force() const { return force_; }
+  const ScalarField& tension() const { return tension_; }
+
+  const ScalarField& target_areas() const { return target_areas_; }
+  const ScalarField& initial_areas() const { return initial_areas_; }
+  double initial_area() const { return initial_area_; }
+  double initial_volume() const { return initial_volume_; }
+
+  /// bending_energy / Ca + E_sigma + penalty energy of the parts that are switched on, at the last geometry.
+  double energy() const;
+
+  MembraneState state() const;
+  /// Replaces the state and updates the geometry.
+  /// @throws std::invalid_argument if an array has the wrong size or an area or the volume is not positive.
+  void restore(const MembraneState& state);
+
+ private:
+  MembraneParameters parameters_;
+  Surface surface_;
+  std::optional<BendingForce> bending_;
+  std::optional<TensionForce> tension_force_;
+  MeshFilter filter_;
+  TargetAreaUpdate target_area_update_;
+
+  VectorField positions_, force_;
+  ScalarField tension_, target_areas_, initial_areas_;
+  double initial_area_ = 0;
+  double initial_volume_ = 0;
+};
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "vesicle/spherical_harmonics.h"
+#include "vesicle/surface.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// How the marker velocity is smoothed in Step 4 of Section 3.3; F_k keeps the degrees n < k.
+enum class FilterOrder {
+  /// U~ = (n . F_normal U) n + (I - n n^T) F_tangential U. U is smooth though its normal and tangential parts
+  /// are not.
+  velocity_first,
+  /// U~ = F_normal [(U . n) n] + F_tangential [(I - n n^T) U], the reading of the paper's text. Unstable for
+  /// elongated shapes
+  /// (reduced volume 0.8): the parts have slowly decaying spectra.
+  components,
+};
+
+/// The paper's 2/3 rule: the number of degrees n < 2N/3.
+int two_thirds_degrees(int latitudes);
+
+/// The velocity filter that keeps the marker mesh smooth. The normal velocity is only dealiased; the
+/// tangential one, which does not change the shape, keeps few degrees.
+class MeshFilter {
+ public:
+  /// Numbers of degrees kept; those beyond the mesh's `latitudes` degrees mean all of them.
+  /// @throws std::invalid_argument unless both are >= 1.
+  MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_degrees, int tangential_degrees);
+
+  /// filtered: shape (markers, 3), resized if needed; must not be `velocity`.
+  /// @throws std::invalid_argument if velocity has the wrong size.
+  void apply(const Surface& surface, const VectorField& velocity, VectorField& filtered);
+
+ private:
+  void filter_velocity(const VectorField& normal, const VectorField& velocity, VectorField& filtered);
+  void filter_components(const VectorField& normal, const VectorField& velocity, VectorField& filtered);
+
+  FilterOrder order_;
+  SphericalHarmonics normal_harmonics_;
+  SphericalHarmonics tangential_harmonics_;
+  Coefficients coefficients_;
+  VectorField part_;
+};
+
+/// Target areas of the markers, which follow the slip of the mesh relative to the membrane (Step 5 of
+/// Section 3.3).
+class TargetAreaUpdate {
+ public:
+  /// One step of Eqs. (33) and (32) with the geometry before the move:
+  ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
+  /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
+  void apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered, double dt,
+             double total_area, ScalarField& target_areas);
+
+ private:
+  VectorField slip_;
+  ScalarField normal_slip_, slip_divergence_;
+};
+
+}  // namespace vesiflow::vesicle

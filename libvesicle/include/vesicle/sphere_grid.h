@@ -1,0 +1,46 @@
+#pragma once
+
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// Gauss-Legendre colatitudes by equispaced longitudes on the parameter sphere, poles excluded:
+///   theta_j with cos(theta_j) the nodes of Gauss-Legendre quadrature, 0 < theta_0 < ... < theta_{N-1} < pi,
+///   phi_i = 2 pi i / N_phi, i = 0 .. N_phi - 1, N_phi = 2 N.
+/// sum_ij w_j dphi f_ij integrates spherical harmonics of degree up to 2N - 1 exactly over the unit sphere.
+///
+/// Nodes come from Newton's method in theta (not the arccosine of a rounded cosine) in extended precision:
+/// the geometry near the poles inherits the relative accuracy of sin(theta).
+class SphereGrid {
+ public:
+  /// @throws std::invalid_argument unless latitudes >= 4.
+  explicit SphereGrid(int latitudes);
+
+  int latitudes() const { return latitudes_; }
+  int longitudes() const { return 2 * latitudes_; }
+  Eigen::Index size() const { return Eigen::Index{2} * latitudes_ * latitudes_; }
+
+  /// Marker number of longitude i and colatitude j.
+  Eigen::Index index(int i, int j) const { return Eigen::Index{j} * longitudes() + i; }
+
+  double longitude_spacing() const;
+  double longitude(int i) const { return i * longitude_spacing(); }
+
+  /// Per latitude, shape (latitudes).
+  const ScalarField& colatitude() const { return colatitude_; }
+  const ScalarField& sin_colatitude() const { return sin_; }
+  const ScalarField& cos_colatitude() const { return cos_; }
+
+  /// Gauss weights w_j, which sum to 2.
+  const ScalarField& weight() const { return weight_; }
+
+  /// dtheta_j dphi = w_j dphi / sin(theta_j): multiplies |X_theta x X_phi| to give the area of a marker's
+  /// cell.
+  const ScalarField& parameter_measure() const { return parameter_measure_; }
+
+ private:
+  int latitudes_;
+  ScalarField colatitude_, sin_, cos_, weight_, parameter_measure_;
+};
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+
+#include "vesicle/sphere_grid.h"
+#include "vesicle/spherical_harmonics.h"
+#include "vesicle/surface_geometry.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// A closed surface of spherical topology given by its markers X_ij on a SphereGrid, with its geometry (Step
+/// 1 of Section 3.3) and its surface calculus (Eqs. (11) and (12)). Outputs go to arrays of the caller, which
+/// are resized when their size is wrong; with the right size nothing allocates. One thread at a time.
+class Surface {
+ public:
+  /// @throws std::invalid_argument unless latitudes >= 4.
+  explicit Surface(int latitudes);
+  ~Surface();
+  Surface(Surface&&) noexcept;
+  Surface& operator=(Surface&&) noexcept;
+
+  /// Takes new marker positions, shape (markers, 3), and recomputes all geometry. Nothing below is meaningful
+  /// before the first call.
+  /// @throws std::invalid_argument for a wrong size, std::domain_error for positions that are not finite
+  /// (with the first such marker) or a degenerate mesh (see SurfaceGeometry).
+  void update(const VectorField& positions);
+
+  const SphereGrid& grid() const { return grid_; }
+  /// Transforms with degrees n < latitudes on this grid.
+  const SphericalHarmonics& harmonics() const { return harmonics_; }
+
+  const VectorField& positions() const { return positions_; }
+  const Coefficients& position_coefficients() const { return coefficients_; }
+  const SurfaceGeometry& geometry() const { return geometry_; }
+
+  const VectorField& normal() const { return geometry_.normal(); }
+  const VectorField& tangent_theta() const { return geometry_.tangent_theta(); }
+  const VectorField& tangent_phi() const { return geometry_.tangent_phi(); }
+  const ScalarField& area_element() const { return geometry_.area_element(); }
+  const ScalarField& mean_curvature() const { return geometry_.mean_curvature(); }
+  const ScalarField& gaussian_curvature() const { return geometry_.gaussian_curvature(); }
+
+  /// dA_ij = |X_theta x X_phi|_ij w_j dphi / sin(theta_j); sums to area().
+  const ScalarField& area_weight() const { return area_weight_; }
+
+  double area() const { return area_; }
+  /// (1/3) sum X . n dA.
+  double volume() const { return volume_; }
+
+  /// sum f dA for a scalar field of shape (markers).
+  double integral(const ScalarField& field) const;
+  /// sum F dA, component by component.
+  Vector3 integral(const VectorField& field) const;
+  /// sum U . n dA.
+  double flux(const VectorField& field) const;
+
+  /// Surface gradient, Eq. (11).
+  void gradient(const ScalarField& scalar, VectorField& result) const;
+  /// Surface divergence of any vector field, tangent or not, Eq. (12).
+  void divergence(const VectorField& vector, ScalarField& result) const;
+  /// max |div U| over the markers.
+  double max_divergence(const VectorField& vector) const;
+  /// div(s P), P = I - n n^T, row by row with Eq. (12): the divergence form of Eq. (20). Six distinct fields.
+  void projector_divergence(const ScalarField& scalar, VectorField& result) const;
+
+ private:
+  struct Work;
+
+  SphereGrid grid_;
+  SphericalHarmonics harmonics_;
+  SurfaceGeometry geometry_;
+  Coefficients coefficients_;
+  VectorField positions_;
+  ScalarField area_weight_;
+  double area_ = 0;
+  double volume_ = 0;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace vesiflow::vesicle

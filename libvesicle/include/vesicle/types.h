@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace vesiflow::vesicle {
+
+/// Field types shared by every header of the library. All quantities are dimensionless: lengths by the
+/// effective radius, times by 1/(shear rate), stresses by mu_o/t_c (Section 3.1 of the paper).
+///
+/// Markers are numbered j * longitudes + i, with longitude i fastest and colatitude j from the north pole.
+
+using Vector3 = Eigen::Vector3d;
+
+/// One value per marker, shape (markers).
+using ScalarField = Eigen::ArrayXd;
+
+/// One vector per marker, shape (markers, 3), column-major: each component is contiguous.
+using VectorField = Eigen::Array<double, Eigen::Dynamic, 3>;
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,113 @@
+#include "vesicle/membrane.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "check.h"
+
+namespace vesiflow::vesicle {
+namespace {
+
+const MembraneParameters& checked(const MembraneParameters& p) {
+  check_argument(p.capillary_number > 0, "capillary_number", p.capillary_number,
+                 "> 0 (infinity: no bending)");
+  check_argument(std::isfinite(p.sigma0) && p.sigma0 >= 0, "sigma0", p.sigma0, "finite and >= 0");
+  check_argument(std::isfinite(p.volume_stiffness) && p.volume_stiffness >= 0, "volume_stiffness",
+                 p.volume_stiffness, "finite and >= 0");
+  check_argument(p.normal_degrees >= 0, "normal_degrees", p.normal_degrees, ">= 0 (0: the 2N/3 rule)");
+  check_argument(p.tangential_degrees >= 1, "tangential_degrees", p.tangential_degrees, ">= 1");
+  return p;
+}
+
+int normal_degrees(const MembraneParameters& p, int latitudes) {
+  return p.normal_degrees == 0 ? two_thirds_degrees(latitudes) : p.normal_degrees;
+}
+
+}  // namespace
+
+Membrane::Membrane(const VectorField& initial_positions, int latitudes, const MembraneParameters& parameters)
+    : parameters_(checked(parameters)),
+      surface_(latitudes),
+      filter_(surface_.grid(), parameters.filter, normal_degrees(parameters, latitudes),
+              parameters.tangential_degrees),
+      positions_(initial_positions),
+      force_(VectorField::Zero(surface_.grid().size(), 3)),
+      tension_(ScalarField::Zero(surface_.grid().size())) {
+  if (std::isfinite(parameters.capillary_number))
+    bending_.emplace(latitudes, parameters.capillary_number, parameters.laplacian);
+  if (parameters.sigma0 > 0) tension_force_.emplace(parameters.sigma0);
+  update_geometry();
+  if (!(surface_.volume() > 0)) {
+    std::ostringstream message;
+    message << "the volume enclosed by the initial positions is " << surface_.volume()
+            << ": must be > 0 (is X_theta x X_phi outward?)";
+    throw std::domain_error(message.str());
+  }
+  initial_areas_ = target_areas_ = surface_.area_weight();
+  initial_area_ = surface_.area();
+  initial_volume_ = surface_.volume();
+}
+
+void Membrane::update_geometry() {
+  surface_.update(positions_);
+}
+
+const VectorField& Membrane::compute_force() {
+  force_.setZero();
+  if (bending_) bending_->add_to(surface_, force_);
+  if (tension_force_) {
+    tension_force_->evaluate(surface_, target_areas_, tension_);
+    tension_force_->add_to(surface_, tension_, force_);
+  }
+  if (parameters_.volume == VolumeControl::penalty)
+    add_volume_penalty(surface_, parameters_.volume_stiffness, initial_volume_, force_);
+  return force_;
+}
+
+void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorField& filtered) {
+  filter_.apply(surface_, velocity, filtered);
+  if (parameters_.volume == VolumeControl::projection)
+    project_volume_rate(surface_, initial_volume_, dt, filtered);
+}
+
+void Membrane::advance(const VectorField& new_positions, const VectorField& velocity,
+                       const VectorField& filtered, double dt) {
+  check_markers(new_positions, "new_positions", positions_.rows());
+  if (tension_force_)
+    target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
+  positions_ = new_positions;
+}
+
+double Membrane::energy() const {
+  double sum = 0;
+  if (bending_) sum += bending_energy(surface_) / parameters_.capillary_number;
+  if (tension_force_) sum += tension_force_->energy(surface_, target_areas_);
+  if (parameters_.volume == VolumeControl::penalty)
+    sum += volume_penalty_energy(surface_, parameters_.volume_stiffness, initial_volume_);
+  return sum;
+}
+
+MembraneState Membrane::state() const {
+  return {positions_, target_areas_, initial_areas_, initial_volume_};
+}
+
+void Membrane::restore(const MembraneState& state) {
+  const Eigen::Index markers = surface_.grid().size();
+  check_markers(state.positions, "positions", markers);
+  check_markers(state.target_areas, "target_areas", markers);
+  check_markers(state.initial_areas, "initial_areas", markers);
+  check_argument((state.target_areas > 0).all(), "smallest target area", state.target_areas.minCoeff(),
+                 "> 0");
+  check_argument((state.initial_areas > 0).all(), "smallest initial area", state.initial_areas.minCoeff(),
+                 "> 0");
+  check_argument(state.initial_volume > 0, "initial_volume", state.initial_volume, "> 0");
+  positions_ = state.positions;
+  target_areas_ = state.target_areas;
+  initial_areas_ = state.initial_areas;
+  initial_area_ = initial_areas_.sum();
+  initial_volume_ = state.initial_volume;
+  update_geometry();
+}
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,26 @@
+#include "vesicle/volume.h"
+
+#include "check.h"
+
+namespace vesiflow::vesicle {
+
+void add_volume_penalty(const Surface& surface, double stiffness, double target_volume, VectorField& force) {
+  check_argument(target_volume > 0, "target_volume", target_volume, "> 0");
+  check_markers(force, "force", surface.grid().size());
+  const double pressure = stiffness * (surface.volume() - target_volume) / target_volume;
+  force -= pressure * surface.normal();
+}
+
+double volume_penalty_energy(const Surface& surface, double stiffness, double target_volume) {
+  check_argument(target_volume > 0, "target_volume", target_volume, "> 0");
+  const double excess = surface.volume() - target_volume;
+  return 0.5 * stiffness * excess * excess / target_volume;
+}
+
+void project_volume_rate(const Surface& surface, double target_volume, double dt, VectorField& velocity) {
+  check_argument(dt > 0, "dt", dt, "> 0");
+  const double rate = surface.flux(velocity) + (surface.volume() - target_volume) / dt;
+  velocity -= rate / surface.area() * surface.normal();
+}
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Checks who includes whom: see "The libraries" in CONTRIBUTING.md.
+# usage: scripts/check_dependencies.sh
+set -euo pipefail
+cd "$(dirname "$0")/.."
+failed=0
+
+# forbid RULE PATTERN FOLDER...: no #include in the folders names what matches the pattern.
+forbid() {
+  local rule=$1 pattern=$2 folder found
+  shift 2
+  for folder in "$@"; do
+    [[ -d $folder ]] || continue
+    if found=$(grep -rnE --include='*.h' --include='*.cpp' "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($pattern)" "$folder"); then
+      printf '%s:\n%s\n' "$rule" "$found" >&2
+      failed=1
+    fi
+  done
+}
+
+forbid "libvesicle knows no fluid" '(fluid|coupling)/' libvesicle tests/vesicle
+forbid "libfluid knows no vesicle" '(vesicle|coupling)/' libfluid tests/fluid
+forbid "public headers show no third-party library but Eigen" \
+  'fftw3|cholmod|suitesparse|sundials|kinsol|cvode|arkode|hdf5|H5|omp\.h|toml|nlohmann' \
+  lib{vesicle,fluid,coupling}/include
+forbid "apps include public headers only" '(\.\./)*lib[a-z]+/|.*(src|detail)/' apps
+
+# What an app includes in quotes is a file of its own or a public header.
+for file in apps/*.h apps/*.cpp apps/*/*.h apps/*/*.cpp; do
+  [[ -f $file ]] || continue
+  while read -r included; do
+    if [[ ! -f $(dirname "$file")/$included && ! -f apps/$included ]] &&
+      ! compgen -G "lib*/include/$included" >/dev/null; then
+      echo "apps include public headers only: $file includes \"$included\"" >&2
+      failed=1
+    fi
+  done < <(sed -nE 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*"([^"]*)".*/\1/p' "$file")
+done
+
+[[ $failed -eq 0 ]] && echo "dependencies: as they should be"
+exit $failed

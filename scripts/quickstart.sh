@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# From a fresh clone to pictures of a tank-treading vesicle, in a few minutes.
+# usage: scripts/quickstart.sh [--threads N]      (default: all cores, but at most 2: the case is small)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+threads=$(nproc)
+((threads <= 2)) || threads=2
+case "${1:-}" in
+  "") ;;
+  --threads) threads=${2:?--threads needs a number} ;;
+  *)
+    sed -n '2,3s/^# //p' "$0"
+    [[ $1 == --help ]] && exit 0
+    exit 2
+    ;;
+esac
+out=out/tank_treading_coarse
+
+scripts/install-deps.sh
+cmake --preset release
+cmake --build --preset release --target shear_flow
+build/release/apps/shear_flow scenes/tank_treading_coarse.toml --out "$out" --threads "$threads"
+scripts/python.sh tools/plot_run.py "$out"
+
+scripts/python.sh - "$out" <<'REPORT'
+import json, sys
+vesicle = json.load(open(f"{sys.argv[1]}/summary.json"))["vesicles"][0]
+print(f"\nMembranes and flow for ParaView: {sys.argv[1]}/vesicle.xdmf and fluid.xdmf; pictures: {sys.argv[1]}/pictures")
+print(f"Steady tank-treading: inclination {vesicle['inclination_angle_deg']:.1f} degrees, "
+      f"frequency {vesicle['tank_treading_frequency']:.3f}. Keller & Skalak (1982), who take the vesicle "
+      "for an ellipsoid of the same reduced volume: 27.0 degrees, 0.427; a few degrees apart is expected.")
+REPORT

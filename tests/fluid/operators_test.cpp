@@ -1,0 +1,80 @@
+#include "fluid/operators.h"
+
+#include <gtest/gtest.h>
+
+#include "fluid/boundary.h"
+#include "test_fields.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+const std::array<Grid, 3> grids{Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}),
+                                Grid({0, -1, 0}, {1, 2, 5}, {7, 5, 11}),
+                                Grid({-3, 0, 0}, {1, 1, 1}, {4, 13, 6})};
+
+TEST(Operators, DivergenceIsMinusTheAdjointOfTheGradient) {
+  for (const Grid& grid : grids) {
+    Field<Cell> p(grid);
+    test::fill_random(p.points(), 1);
+    const FaceVector u = test::random_velocity(grid, 2);
+    FaceVector g(grid);
+    Field<Cell> d(grid);
+    gradient(p, g);
+    divergence(u, d);
+    const double scale = std::sqrt(test::dot(g, g) * test::dot(u, u));
+    EXPECT_NEAR(test::dot(g, u), -test::dot(p.points(), d.points()), 1e-14 * scale);
+  }
+}
+
+// <v, N(u)> vanishes for v = u: convection does no work, whether u is divergence-free or not.
+TEST(Operators, ConvectionDoesNoWorkBetweenZeroWalls) {
+  for (const Grid& grid : grids) {
+    FaceVector u = test::random_velocity(grid, 5);
+    const WallVelocity walls(
+        grid, [](const Vector3&, double) { return Vector3{}; }, true);
+    walls.fill_ghosts(u);
+    FaceVector n(grid);
+    convection(u, n);
+    const double scale = std::sqrt(test::dot(n, n) * test::dot(u, u));
+    EXPECT_GT(scale, 1.0);
+    EXPECT_NEAR(test::dot(n, u), 0.0, 1e-14 * scale);
+  }
+}
+
+// For a linear flow u = G r with zero trace, (u.grad)u = G G r, and all differences are exact but for the
+// products, whose differences over 2h are exact for quadratics too.
+TEST(Operators, ConvectionOfALinearFlowIsExact) {
+  const Grid& grid = grids[1];
+  const std::array<Vector3, 3> g{{{0.5, 2.0, -1.0}, {1.0, 0.25, 3.0}, {-1.0, 1.0, -0.75}}};
+  const auto multiply = [&](const Vector3& r) {
+    Vector3 product{};
+    for (int a = 0; a < 3; ++a) product[a] = g[a][0] * r[0] + g[a][1] * r[1] + g[a][2] * r[2];
+    return product;
+  };
+  FaceVector u(grid);
+  const WallVelocity walls(
+      grid, [&](const Vector3& r, double) { return multiply(r); }, true);
+  const auto fields = u.points();
+  for (int c = 0; c < 3; ++c) {
+    test::for_each_point(fields[c].extent, [&](int i, int j, int k) {
+      fields[c](i, j, k) = multiply(point_position(grid, static_cast<Centring>(c + 1), i, j, k))[c];
+    });
+  }
+  walls.fill_ghosts(u);
+  FaceVector n(grid);
+  convection(u, n);
+  EXPECT_LT(max_divergence(u), 1e-13);
+  for (int c = 0; c < 3; ++c) {
+    const auto centring = static_cast<Centring>(c + 1);
+    std::array<int, 3> first{};
+    first[c] = 1;
+    const View unknowns = n.unknowns()[c];
+    test::for_each_point(unknowns.extent, [&](int i, int j, int k) {
+      const Vector3 r = point_position(grid, centring, i + first[0], j + first[1], k + first[2]);
+      EXPECT_NEAR(unknowns(i, j, k), multiply(multiply(r))[c], 2e-13);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace vesiflow::fluid
