@@ -12,6 +12,7 @@ set(package_CHOLMOD "CHOLMOD")
 set(package_HDF5C "HDF5C")
 set(package_spdlog "spdlog")
 set(package_fmt "fmt")
+set(package_tomlplusplus "tomlplusplus")
 
 foreach(library IN LISTS VESIFLOW_LIBRARIES)
   # Read off the target, so that options and static against shared need no case here: a shared library links its

@@ -24,11 +24,11 @@ class Plan {
   void head(const std::string& text) { text_ += text + "\n"; }
   template <class... Values>
   void line(const char* label, fmt::format_string<Values...> format, Values&&... values) {
-    text_ += fmt::format("  {:<22}", label) + fmt::format(format, std::forward<Values>(values)...) + "\n";
+    text_ += fmt::format("  {:<32}", label) + fmt::format(format, std::forward<Values>(values)...) + "\n";
   }
   // A part of the step that is done, or skipped with the reason.
   void part(bool done, const char* label, const std::string& what, const std::string& why_not) {
-    text_ += fmt::format("  {} {:<20}{}\n", done ? "+" : "-", label, done ? what : "skipped: " + why_not);
+    text_ += fmt::format("  {} {:<30}{}\n", done ? "+" : "-", label, done ? what : "skipped: " + why_not);
   }
   const std::string& text() const { return text_; }
 
@@ -82,7 +82,7 @@ void describe_step(Plan& plan, const Scene& scene) {
             fmt::format("{}: normal velocity {} degrees, tangential {}",
                         scene.mesh.filter == vesicle::FilterOrder::velocity_first
                             ? "velocity filtered, then split"
-                            : "normal and tangential velocity filtered apart (paper)",
+                            : "normal and tangential parts filtered apart",
                         normal, scene.mesh.tangential_degrees),
             "");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",

@@ -20,8 +20,7 @@ std::string duration(double seconds) {
 std::string bar(double fraction) {
   constexpr int width = 24;
   const int full = std::clamp(static_cast<int>(fraction * width), 0, width);
-  return "[" + std::string(static_cast<std::size_t>(full), '#') +
-         std::string(static_cast<std::size_t>(width - full), '.') + "]";
+  return fmt::format("[{:#<{}}{:.<{}}]", "", full, "", width - full);
 }
 
 // The vesicle that drifts most speaks for all.

@@ -74,7 +74,7 @@ class Document {
     for (std::string part; std::getline(parts, part, '.');) {
       const bool index = !part.empty() && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
       if (index) {
-        path += "[" + part + "]";
+        path += fmt::format("[{}]", part);
       } else {
         if (!path.empty()) path += ".";
         path += part;

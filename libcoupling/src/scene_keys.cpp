@@ -46,7 +46,6 @@ void apply_preset(Scene& scene) {
   if (scene.method.preset != Preset::paper) return;
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;
-  scene.mesh.filter = vesicle::FilterOrder::components;
 }
 
 void visit_keys(Scene& scene, KeyVisitor& v) {

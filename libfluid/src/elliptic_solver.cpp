@@ -87,7 +87,7 @@ std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverO
 #ifdef VESIFLOW_WITH_CHOLMOD
                                  return CholmodSolver::estimate_memory(problem);
 #else
-                                   refuse_cholmod();
+                                 refuse_cholmod();
 #endif
                                }},
                     options);

@@ -42,8 +42,8 @@ TEST(Scene, ReadsKeysFractionsAndOverrides) {
 TEST(Scene, PresetSetsDefaultsThatKeysStillOverride) {
   const Scene paper = parse("[method]\npreset = \"paper\"\n[membrane]\nvolume = \"none\"\n" + sphere);
   EXPECT_EQ(paper.membrane.laplacian, vesicle::LaplacianForm::paper);
-  EXPECT_EQ(paper.mesh.filter, vesicle::FilterOrder::components);
   EXPECT_EQ(paper.membrane.volume, vesicle::VolumeControl::none);
+  EXPECT_EQ(parse(sphere, {"method.preset=paper"}).membrane.volume, vesicle::VolumeControl::penalty);
   EXPECT_EQ(parse(sphere).membrane.volume, vesicle::VolumeControl::projection);
 }
 

@@ -116,27 +116,24 @@ Errors run(int cells, double reynolds_number) {
   return errors(fluid, flow);
 }
 
-// Between 16, 24 and 32 cells the slope of a second-order error departs from 2 by its O(h^4) part, here of
-// some 0.05.
+double slope(double coarse_error, int coarse_cells, double fine_error, int fine_cells) {
+  return std::log(coarse_error / fine_error) / std::log(static_cast<double>(fine_cells) / coarse_cells);
+}
+
+// The error is C h^2 (1 - c h + ...): the slope comes to 2 from below (1.92 from 16 to 24 cells, 1.98 from 32
+// to 48 and 1.99 from 48 to 64 at Re = 1), later at Re = 10, whose layers are thinner. Hence the test that it
+// does come closer.
 TEST(NavierStokesOrder, IsTwoInSpace) {
   for (const double reynolds_number : {1.0, 10.0}) {
     const Errors coarse = run(16, reynolds_number);
-    const Errors middle = run(24, reynolds_number);
-    const Errors fine = run(32, reynolds_number);
-    const auto slope = [](double e1, double n1, double e2, double n2) {
-      return std::log(e1 / e2) / std::log(n2 / n1);
-    };
-    EXPECT_NEAR(slope(coarse.velocity_l2, 16, middle.velocity_l2, 24), 2.0, 0.1);
-    EXPECT_NEAR(slope(middle.velocity_l2, 24, fine.velocity_l2, 32), 2.0, 0.1);
-    EXPECT_GT(slope(middle.velocity_max, 24, fine.velocity_max, 32), 1.8);
-    EXPECT_GT(slope(middle.pressure_l2, 24, fine.pressure_l2, 32), 1.5);
-    RecordProperty("velocity_l2_32", std::to_string(fine.velocity_l2));
-    std::printf("Re %g: u %.3e %.3e %.3e (%.3f %.3f) max %.3e %.3e (%.3f)  p %.3e %.3e %.3e (%.3f)\n",
-                reynolds_number, coarse.velocity_l2, middle.velocity_l2, fine.velocity_l2,
-                slope(coarse.velocity_l2, 16, middle.velocity_l2, 24),
-                slope(middle.velocity_l2, 24, fine.velocity_l2, 32), middle.velocity_max, fine.velocity_max,
-                slope(middle.velocity_max, 24, fine.velocity_max, 32), coarse.pressure_l2, middle.pressure_l2,
-                fine.pressure_l2, slope(middle.pressure_l2, 24, fine.pressure_l2, 32));
+    const Errors middle = run(32, reynolds_number);
+    const Errors fine = run(48, reynolds_number);
+    const double first = slope(coarse.velocity_l2, 16, middle.velocity_l2, 32);
+    const double second = slope(middle.velocity_l2, 32, fine.velocity_l2, 48);
+    EXPECT_NEAR(second, 2.0, 0.1);
+    EXPECT_LT(std::abs(second - 2.0), 0.8 * std::abs(first - 2.0));
+    EXPECT_GT(slope(middle.velocity_max, 32, fine.velocity_max, 48), 1.7);
+    EXPECT_GT(slope(middle.pressure_l2, 32, fine.pressure_l2, 48), 1.5);
   }
 }
 
@@ -181,12 +178,11 @@ double l2_difference(FaceVector& a, const FaceVector& b) {
 }
 
 void expect_second_order(const std::function<FaceVector(int steps)>& run_with) {
-  FaceVector coarse = run_with(32);
-  FaceVector middle = run_with(64);
-  FaceVector fine = run_with(128);
-  const double slope = std::log2(l2_difference(coarse, middle) / l2_difference(middle, fine));
-  std::printf("time order %.3f (%.3e)\n", slope, l2_difference(middle, fine));
-  EXPECT_NEAR(slope, 2.0, 0.15);
+  FaceVector coarse = run_with(64);
+  FaceVector middle = run_with(128);
+  FaceVector fine = run_with(256);
+  const double order = std::log2(l2_difference(coarse, middle) / l2_difference(middle, fine));
+  EXPECT_NEAR(order, 2.0, 0.1);  // 1.93 here, and 1.87 with steps twice as large
 }
 
 TEST(NavierStokesOrder, IsTwoInTime) {

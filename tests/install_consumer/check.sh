@@ -50,7 +50,7 @@ fi
 
 # The same program with the source tree as a part of it, and with one library alone.
 configure "$here/vesicle" subdirectory "${no_optional[@]}" -DVESIFLOW_SOURCE="$here/../.." \
-  -DVESIFLOW_LIBRARIES=vesicle -DCMAKE_PROJECT_TOP_LEVEL_INCLUDES="$here/as_subdirectory.cmake"
+  -DVESIFLOW_LIBRARIES=vesicle -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PROJECT_TOP_LEVEL_INCLUDES="$here/as_subdirectory.cmake"
 quietly cmake --build "$scratch/subdirectory"
 quietly "$scratch/subdirectory/curvatures"
 echo "install consumer: vesicle built and ran as a subdirectory"

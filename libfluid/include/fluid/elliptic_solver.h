@@ -21,8 +21,8 @@ struct SolveReport {
 };
 
 // One problem at a time: update() takes it, solve() solves it for as many right-hand sides as wanted.
-// A solver may be used by one thread at a time; inside it uses omp_get_max_threads() threads as of its last
-// update().
+// A solver may be used by one thread at a time; inside it uses omp_get_max_threads() threads, but no more
+// than that was at its last update().
 class EllipticSolver {
  public:
   virtual ~EllipticSolver() = default;
@@ -68,8 +68,8 @@ using SolverOptions = std::variant<FftOptions, CholmodOptions>;
 std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem,
                                                      const SolverOptions& options);
 
-// Bytes a solver will take for a problem with the present omp_get_max_threads(): exact for "fft", an
-// empirical rule for "cholmod". Nothing is allocated.
+// Bytes a solver will take for a problem with the present omp_get_max_threads(): the work arrays of "fft"
+// (FFTW's own tables are small), an empirical rule for "cholmod". Nothing is allocated.
 std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options);
 
 }  // namespace vesiflow::fluid

@@ -1,0 +1,179 @@
+#include "coupling/run.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "coupling/checkpoint.h"
+#include "coupling/errors.h"
+#include "small_scene.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunTest : public testing::Test {
+ protected:
+  RunTest()
+      : folder_(fs::temp_directory_path() / ("vesiflow_run_" + std::to_string(getpid()) + "_" +
+                                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(folder_);
+  }
+  ~RunTest() override { fs::remove_all(folder_); }
+
+  fs::path at(const char* name) const { return folder_ / name; }
+
+  RunStatus run_scene(const Scene& scene, const fs::path& directory,
+                      const std::optional<fs::path>& checkpoint = std::nullopt) const {
+    Simulation simulation(scene);
+    RunOptions options;
+    options.directory = directory;
+    options.checkpoint = checkpoint;
+    options.quiet = true;
+    return run(simulation, options);
+  }
+
+  static std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
+  fs::path folder_;
+};
+
+// The final state of a run, for comparison to the last bit.
+void expect_same_state(const fs::path& a, const fs::path& b, const Scene& scene) {
+  Simulation first(scene), second(scene);
+  restore_checkpoint(a, first);
+  restore_checkpoint(b, second);
+  const SimulationState x = first.state(), y = second.state();
+  EXPECT_EQ(x.clock.steps, y.clock.steps);
+  EXPECT_EQ(x.clock.time, y.clock.time);
+  const auto same = [](const auto& f, const auto& g) { return std::equal(f.data(), f.data() + f.size(), g.data()); };
+  EXPECT_TRUE(same(x.velocity.x, y.velocity.x));
+  EXPECT_TRUE(same(x.velocity.y, y.velocity.y));
+  EXPECT_TRUE(same(x.velocity.z, y.velocity.z));
+  EXPECT_TRUE(same(x.previous_velocity.x, y.previous_velocity.x));
+  EXPECT_TRUE(same(x.pressure, y.pressure));
+  EXPECT_TRUE((x.vesicles[0].membrane.positions == y.vesicles[0].membrane.positions).all());
+  EXPECT_TRUE((x.vesicles[0].membrane.target_areas == y.vesicles[0].membrane.target_areas).all());
+  EXPECT_EQ(x.vesicles[0].integrator_history, y.vesicles[0].integrator_history);
+}
+
+void compare_restart(const fs::path& folder, const Overrides& overrides, int threads) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(threads);
+  const auto go = [&](const Scene& scene, const fs::path& directory, const std::optional<fs::path>& checkpoint) {
+    Simulation simulation(scene);
+    RunOptions options;
+    options.directory = directory;
+    options.checkpoint = checkpoint;
+    options.quiet = true;
+    EXPECT_EQ(run(simulation, options), RunStatus::completed);
+  };
+  Overrides half = overrides;
+  half.emplace_back("time.end=0.25");
+  const Scene whole_scene = small_scene(overrides);
+  go(whole_scene, folder / "whole", std::nullopt);
+  go(small_scene(half), folder / "parts", std::nullopt);
+  go(whole_scene, folder / "parts", folder / "parts" / "checkpoint.h5");
+  expect_same_state(folder / "whole" / "checkpoint.h5", folder / "parts" / "checkpoint.h5", whole_scene);
+  omp_set_num_threads(before);
+}
+
+TEST_F(RunTest, RestartContinuesBitForBitWithOneThread) { compare_restart(folder_, {}, 1); }
+TEST_F(RunTest, RestartContinuesBitForBitWithTwoThreads) { compare_restart(folder_, {}, 2); }
+TEST_F(RunTest, RestartContinuesBitForBitWithMarkerHistory) {
+  compare_restart(folder_, {"time.markers=ab2", "membrane.g=2"}, 2);
+}
+TEST_F(RunTest, RestartContinuesBitForBitWithThePaperPreset) {
+  compare_restart(folder_, {"method.preset=paper", "fluid.reynolds_number=1"}, 2);
+}
+
+TEST_F(RunTest, RestartContinuesTheFilesOfItsFolder) {
+  run_scene(small_scene(), at("whole"));
+  run_scene(small_scene({"time.end=0.25"}), at("parts"));
+  run_scene(small_scene(), at("parts"), at("parts") / "checkpoint.h5");
+  EXPECT_EQ(text_of(at("whole") / "diagnostics.csv"), text_of(at("parts") / "diagnostics.csv"));
+  EXPECT_EQ(text_of(at("whole") / "vesicle.xdmf"), text_of(at("parts") / "vesicle.xdmf"));
+  EXPECT_EQ(text_of(at("whole") / "fluid.xdmf"), text_of(at("parts") / "fluid.xdmf"));
+  EXPECT_FALSE(fs::exists(at("parts") / "previous_1"));
+}
+
+// A run killed after its last checkpoint leaves rows and snapshots beyond it, which the restart computes again.
+TEST_F(RunTest, RestartDropsWhatWasWrittenAfterTheCheckpoint) {
+  run_scene(small_scene({"time.end=0.25"}), at("run"));
+  fs::create_directories(at("kept"));
+  fs::copy_file(at("run") / "checkpoint.h5", at("kept") / "checkpoint.h5");
+  run_scene(small_scene(), at("run"), at("run") / "checkpoint.h5");
+  const std::string whole = text_of(at("run") / "diagnostics.csv"), xdmf = text_of(at("run") / "vesicle.xdmf");
+  fs::copy_file(at("kept") / "checkpoint.h5", at("run") / "checkpoint.h5", fs::copy_options::overwrite_existing);
+  run_scene(small_scene(), at("run"), at("run") / "checkpoint.h5");
+  EXPECT_EQ(text_of(at("run") / "diagnostics.csv"), whole);
+  EXPECT_EQ(text_of(at("run") / "vesicle.xdmf"), xdmf);
+}
+
+TEST_F(RunTest, EarlierResultsAreKept) {
+  run_scene(small_scene({"time.end=0.1"}), at("run"));
+  const std::string earlier = text_of(at("run") / "diagnostics.csv");
+  run_scene(small_scene({"time.end=0.1", "flow.rate=2"}), at("run"));
+  EXPECT_EQ(text_of(at("run") / "previous_1" / "diagnostics.csv"), earlier);
+  EXPECT_NE(text_of(at("run") / "diagnostics.csv"), earlier);
+}
+
+TEST_F(RunTest, SwitchedOffOutputIsNotWritten) {
+  run_scene(small_scene({"time.end=0.1", "output.diagnostics_every=0", "output.vesicle_every=0", "output.fluid_every=0",
+                         "output.checkpoint_every=0"}),
+            at("run"));
+  EXPECT_TRUE(fs::exists(at("run") / "summary.json"));
+  for (const char* file : {"diagnostics.csv", "vesicle.h5", "fluid.h5", "checkpoint.h5"})
+    EXPECT_FALSE(fs::exists(at("run") / file)) << file;
+}
+
+TEST_F(RunTest, BlowUpNamesStepTimeCauseAndCheckpoint) {
+  try {
+    run_scene(small_scene({"membrane.g=15.5", "time.end=20", "output.checkpoint_every=0.02"}), at("run"));
+    FAIL() << "should have stopped";
+  } catch (const SimulationStopped& reason) {
+    const std::string message = reason.what();
+    for (const char* part : {"step", "t = ", "likely cause", "checkpoint.h5"})
+      EXPECT_NE(message.find(part), std::string::npos) << message;
+  }
+  EXPECT_NE(text_of(at("run") / "summary.json").find("\"status\": \"stopped\""), std::string::npos);
+  Simulation simulation(small_scene({"membrane.g=15.5", "time.end=20"}));
+  EXPECT_NO_THROW(restore_checkpoint(at("run") / "checkpoint.h5", simulation));
+}
+
+TEST_F(RunTest, RefusesUnusableCheckpointsAndTouchesNothing) {
+  run_scene(small_scene({"time.end=0.1"}), at("run"));
+  const fs::path good = at("run") / "checkpoint.h5", bad = at("bad.h5");
+  const auto refused = [&](const Overrides& overrides, const fs::path& checkpoint) {
+    EXPECT_THROW(run_scene(small_scene(overrides), at("other"), checkpoint), SceneError);
+    EXPECT_FALSE(fs::exists(at("other")));
+  };
+  refused({}, at("missing.h5"));
+  std::ofstream(bad) << "not a checkpoint";
+  refused({}, bad);
+  fs::copy_file(good, bad, fs::copy_options::overwrite_existing);
+  fs::resize_file(bad, fs::file_size(good) / 2);
+  refused({}, bad);
+  refused({"fluid.reynolds_number=2"}, good);
+  refused({"mesh.latitudes=20"}, good);
+}
+
+TEST_F(RunTest, RefusesAFolderThatCannotBeWritten) {
+  fs::create_directories(folder_);
+  std::ofstream(at("file")) << "in the way";
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("file") / "run"), FileError);
+  EXPECT_EQ(text_of(at("file")), "in the way");
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling
