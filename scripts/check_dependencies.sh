@@ -25,17 +25,14 @@ forbid "public headers show no third-party library but Eigen" \
   lib{vesicle,fluid,coupling}/include
 forbid "apps include public headers only" '(\.\./)*lib[a-z]+/|.*(src|detail)/' apps
 
-# What an app includes in quotes is a file of its own or a public header.
-for file in apps/*.h apps/*.cpp apps/*/*.h apps/*/*.cpp; do
-  [[ -f $file ]] || continue
-  while read -r included; do
-    if [[ ! -f $(dirname "$file")/$included && ! -f apps/$included ]] &&
-      ! compgen -G "lib*/include/$included" >/dev/null; then
-      echo "apps include public headers only: $file includes \"$included\"" >&2
-      failed=1
-    fi
-  done < <(sed -nE 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*"([^"]*)".*/\1/p' "$file")
-done
+# What an app includes in quotes is a file of the apps or a public header.
+while IFS=: read -r file included; do
+  if [[ -z $(find apps -path "*/$included") ]] && ! compgen -G "lib*/include/$included" >/dev/null; then
+    echo "apps include public headers only: $file includes \"$included\"" >&2
+    failed=1
+  fi
+done < <(grep -rE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' apps |
+  sed -E 's/:[^"]*"([^"]*)".*/:\1/')
 
 [[ $failed -eq 0 ]] && echo "dependencies: as they should be"
 exit $failed

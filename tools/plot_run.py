@@ -144,7 +144,7 @@ def draw_membranes(axes, membranes, colours):
     front = front[np.argsort(corners[front, :, 2].mean(axis=1))]
 
     diffuse = np.clip(normal[front] @ LIGHT, 0, 1)[:, None]
-    shine = 0.25 * np.clip(normal[front] @ HALFWAY, 0, 1)[:, None] ** 30
+    shine = 0.15 * np.clip(normal[front] @ HALFWAY, 0, 1)[:, None] ** 30
     colour = colours.to_rgba(tension[front])[:, :3] * (0.6 + 0.45 * diffuse)
     colour = np.clip(colour + shine, 0, 1)
     axes.add_collection(
@@ -229,7 +229,7 @@ def draw_membrane(folder, target):
 
     tension = np.concatenate([values for snapshot in snapshots for _, values, _ in snapshot])
     low, high = np.percentile(tension, [1, 99])
-    colours = plt.cm.ScalarMappable(plt.Normalize(low, high if high > low else low + 1), "viridis")
+    colours = plt.cm.ScalarMappable(plt.Normalize(low, high if high > low else low + 1), "YlOrBr")
     seen = np.concatenate([points @ VIEW.T[:, :2] for snapshot in snapshots for points, _, _ in snapshot])
     middle, reach = (seen.min(axis=0) + seen.max(axis=0)) / 2, 0.54 * np.ptp(seen, axis=0)
     reach = np.maximum(reach, 0.7 * reach.max())

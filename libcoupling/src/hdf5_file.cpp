@@ -27,29 +27,36 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-hid_t creating_groups_id() {
+hid_t creating_groups() {
   const hid_t list = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(list, 1);
   return list;
 }
-Handle creating_groups() { return {creating_groups_id(), H5Pclose}; }
 
-Handle simple_space(const Hdf5File::Shape& shape) {
+hid_t simple_space(const Hdf5File::Shape& shape) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  return H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr);
+}
+
+// Without the time of writing, the same results are the same file.
+hid_t timeless() {
+  const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_obj_track_times(list, false);
+  return list;
 }
 
 bool write_dataset(hid_t file, const std::string& name, hid_t type, const void* values, const Hdf5File::Shape& shape) {
-  const Handle space = simple_space(shape);
-  const Handle links = creating_groups();
-  const Handle set(H5Dcreate2(file, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Handle space(simple_space(shape), H5Sclose);
+  const Handle links(creating_groups(), H5Pclose);
+  const Handle creation(timeless(), H5Pclose);
+  const Handle set(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose);
   return set.valid() && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
 }
 
 // The object of that name, made as a group if there is none.
 Handle object(hid_t file, const std::string& name) {
   if (name != "/" && H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) {
-    const Handle links = creating_groups();
+    const Handle links(creating_groups(), H5Pclose);
     const Handle group(H5Gcreate2(file, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   }
   return Handle(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
@@ -116,7 +123,7 @@ void Hdf5File::attribute(const std::string& group, const std::string& name, std:
   if (!write_attribute(file_, group, name, H5T_NATIVE_INT64, scalar, &value)) fail(name + " cannot be written");
 }
 void Hdf5File::attribute(const std::string& group, const std::string& name, const std::vector<double>& values) {
-  const Handle space = simple_space({values.size()});
+  const Handle space(simple_space({values.size()}), H5Sclose);
   if (!write_attribute(file_, group, name, H5T_NATIVE_DOUBLE, space, values.data())) fail(name + " cannot be written");
 }
 void Hdf5File::attribute(const std::string& group, const std::string& name, const std::string& value) {

@@ -13,12 +13,13 @@
 namespace vesiflow::coupling {
 namespace {
 
-// Solid angle under which a closed surface is seen from a point, over 4 pi: 1 inside, 0 outside.
+// Solid angle under which a closed surface is seen from a point, over 4 pi: 1 inside, 0 outside, about 1/2 on it.
 double winding_number(const vesicle::Surface& surface, const vesicle::Vector3& point) {
   double sum = 0.0;
   for (Eigen::Index m = 0; m < surface.positions().rows(); ++m) {
     const vesicle::Vector3 r = surface.positions().row(m).matrix().transpose() - point;
     const double distance = r.norm();
+    if (distance == 0.0) continue;
     sum += r.dot(surface.normal().row(m).matrix()) * surface.area_weight()(m) / (distance * distance * distance);
   }
   return sum / (4.0 * std::numbers::pi);
@@ -29,9 +30,12 @@ bool boxes_meet(const vesicle::VectorField& a, const vesicle::VectorField& b) {
          (b.colwise().minCoeff() <= a.colwise().maxCoeff()).all();
 }
 
+// Below the 1/2 of a point on the surface, so that touching counts as overlapping.
+constexpr double overlap_threshold = 0.25;
+
 bool meets(const vesicle::Surface& surface, const vesicle::VectorField& markers) {
   for (Eigen::Index m = 0; m < markers.rows(); ++m)
-    if (winding_number(surface, markers.row(m).matrix().transpose()) > 0.5) return true;
+    if (winding_number(surface, markers.row(m).matrix().transpose()) > overlap_threshold) return true;
   return false;
 }
 

@@ -121,11 +121,13 @@ std::string to_toml(const Scene& scene) {
   Scene copy = scene;
   TomlWriter writer;
   visit_keys(copy, writer);
+  std::string text = writer.result;
   for (VesicleScene& vesicle : copy.vesicles) {
-    writer.result += "\n[[vesicles]]\n";
-    visit_keys(vesicle, writer);
+    TomlWriter of_vesicle;
+    visit_keys(vesicle, of_vesicle);
+    text += "\n[[vesicles]]\n" + of_vesicle.result;
   }
-  return writer.result;
+  return text;
 }
 
 std::vector<SceneKey> scene_keys() {

@@ -12,15 +12,22 @@
 namespace vesiflow::coupling {
 namespace {
 
+VesicleScene sphere_at(const std::array<double, 3>& centre) {
+  VesicleScene vesicle;
+  vesicle.shape = Shape::sphere;
+  vesicle.centre = centre;
+  return vesicle;
+}
+
 void advance(Simulation& simulation, long steps) {
   for (long i = 0; i < steps; ++i) simulation.step();
 }
 
-// METHOD anchor: [-3,3]^3, 32^3 cells, 32 latitudes, reduced volume 0.9 reaches 0.169 to 0.170 pi at t = 2, measured
+// [-3,3]^3, 32^3 cells, 32 latitudes, reduced volume 0.9, started across the flow: 0.1690 pi at t = 2, measured
 // with an independent prototype of the same method.
 TEST(Simulation, TankTreadingVesicleReachesTheKnownAngle) {
   const Scene scene = small_scene({"domain.cells=32", "mesh.latitudes=32", "time.step=1/192", "time.end=2",
-                                   "vesicles.0.reduced_volume=0.9", "vesicles.0.rotation_deg=90"});
+                                   "vesicles.0.reduced_volume=0.9", "vesicles.0.rotation_deg=0"});
   Simulation simulation(scene);
   advance(simulation, scene.steps());
   const vesicle::Diagnostics d = simulation.measure().at(0);
@@ -33,19 +40,19 @@ TEST(Simulation, TankTreadingVesicleReachesTheKnownAngle) {
 
 TEST(Simulation, SphereInShearKeepsItsShapeAndTurnsAtHalfTheShearRate) {
   Scene scene = small_scene({"time.step=1/960", "time.end=0.4"});  // so sigma0 = 4000: a penalty tension yields
-  scene.vesicles[0] = VesicleScene{.shape = Shape::sphere};
+  scene.vesicles[0] = sphere_at({0, 0, 0});
   Simulation simulation(scene);
   advance(simulation, scene.steps());
   const vesicle::Diagnostics d = simulation.measure().at(0);
   // The nearest walls, at three radii, and the thickened membrane speed the surface up or down by a per cent or two.
   EXPECT_NEAR(d.tank_treading_frequency, 0.5, 0.01);
-  EXPECT_GT(d.reduced_volume, 0.995);
+  EXPECT_GT(d.reduced_volume, 0.99);  // the area strain is about 1.5e-2 (600/sigma0)^(2/3) = 4e-3
 }
 
 // Nothing acts on a sphere at rest but the constant bending pressure, which a closed surface cannot follow.
 TEST(Simulation, SphereAtRestStaysWhereItIs) {
   Scene scene = small_scene({"flow.type=rest"});
-  scene.vesicles[0] = VesicleScene{.shape = Shape::sphere, .centre = {0.1, -0.2, 0.3}};
+  scene.vesicles[0] = sphere_at({0.1, -0.2, 0.3});
   Simulation simulation(scene);
   advance(simulation, 20);
   const vesicle::Diagnostics d = simulation.measure().at(0);
@@ -89,7 +96,10 @@ TEST(Simulation, LookingAtItDoesNotChangeIt) {
 
 TEST(Simulation, VesiclesInOneBoxDoNotDependOnTheirOrder) {
   Scene scene = small_scene({"domain.upper=[6, 3, 3]", "domain.cells=[36, 24, 24]"});
-  scene.vesicles.push_back(VesicleScene{.shape = Shape::oblate, .reduced_volume = 0.95, .centre = {2.8, 0, 0.3}});
+  VesicleScene oblate = sphere_at({2.8, 0, 0.3});
+  oblate.shape = Shape::oblate;
+  oblate.reduced_volume = 0.95;
+  scene.vesicles.push_back(oblate);
   Scene swapped = scene;
   std::swap(swapped.vesicles[0], swapped.vesicles[1]);
   Simulation a(scene), b(swapped);
@@ -104,12 +114,11 @@ TEST(Simulation, VesiclesInOneBoxDoNotDependOnTheirOrder) {
 
 // A membrane that nothing holds moves with the fluid: a linear flow carries it exactly.
 TEST(Simulation, PassiveMembraneFollowsALinearFlowOfOnesOwn) {
-  const Scene scene = small_scene({"membrane.sigma0=0", "membrane.capillary_number=1e12", "time.step=0.002",
-                                   "time.end=0.1", "membrane.volume=none", "mesh.tangential_degrees=16"});
+  Scene scene = small_scene({"membrane.capillary_number=1e12", "time.step=0.002", "time.end=0.1",
+                             "membrane.volume=none", "mesh.tangential_degrees=16"});
+  scene.membrane.sigma0 = 0.0;
   const auto extension = [](const fluid::Vector3& x, double) { return fluid::Vector3{x[0], -0.5 * x[1], -0.5 * x[2]}; };
-  Scene own = scene;
-  own.membrane.g.reset();
-  Simulation simulation(own, extension, true);
+  Simulation simulation(scene, extension, true);
   const vesicle::VectorField start = simulation.membrane(0).positions();
   advance(simulation, 50);
   const double growth = std::pow(1.002, 50), decay = std::pow(1.0 - 0.001, 50);

@@ -16,7 +16,8 @@ coupling::Scene scene() {
   scene.time.step = 1.0 / 96;
   scene.time.end = 0.25;
   scene.output = {.diagnostics_every = 0.05, .vesicle_every = 0.25, .fluid_every = 0.25};
-  scene.vesicles = {{.shape = coupling::Shape::prolate, .reduced_volume = 0.9}};
+  scene.vesicles.resize(1);
+  scene.vesicles[0].reduced_volume = 0.9;
   coupling::check_scene(scene, "extension");
   return scene;
 }
@@ -37,4 +38,6 @@ int extension(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return vesiflow::coupling::exit_code_of(extension, argc, argv); }
+int main(int argc, char** argv) {
+  return vesiflow::coupling::exit_code_of(extension, argc, argv);
+}
