@@ -13,4 +13,6 @@ int relaxation(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return vesiflow::coupling::exit_code_of(relaxation, argc, argv); }
+int main(int argc, char** argv) {
+  return vesiflow::coupling::exit_code_of(relaxation, argc, argv);
+}

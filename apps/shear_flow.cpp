@@ -13,4 +13,6 @@ int shear_flow(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return vesiflow::coupling::exit_code_of(shear_flow, argc, argv); }
+int main(int argc, char** argv) {
+  return vesiflow::coupling::exit_code_of(shear_flow, argc, argv);
+}

@@ -76,8 +76,7 @@ VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen:
   read_into(file, group + "/target_areas", m.target_areas.data(), size, path);
   read_into(file, group + "/initial_areas", m.initial_areas.data(), size, path);
   m.initial_volume = file.read_number(group, "initial_volume");
-  if (file.exists(group + "/integrator_history"))
-    state.integrator_history = file.read(group + "/integrator_history");
+  if (file.exists(group + "/integrator_history")) state.integrator_history = file.read(group + "/integrator_history");
   return state;
 }
 
@@ -93,9 +92,10 @@ void check_same_scene(const Scene& written, const Scene& now, const std::filesys
     const auto other = after.find(key);
     const std::string other_value = other == after.end() ? "absent" : other->second;
     if (other_value != value)
-      throw SceneError(fmt::format("{}: was written with {} = {}, this scene has {}; a restart keeps everything but title, "
-                                   "time.end, limits and output",
-                                   path.string(), key, value, other_value));
+      throw SceneError(
+          fmt::format("{}: was written with {} = {}, this scene has {}; a restart keeps everything but title, "
+                      "time.end, limits and output",
+                      path.string(), key, value, other_value));
   }
   if (after.size() > before.size())
     throw SceneError(fmt::format("{}: was written with {} vesicles, this scene has {}", path.string(),

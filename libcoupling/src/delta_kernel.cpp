@@ -21,8 +21,12 @@ double outer(double t, double s, double a) {
   return outer_constant - 13.0 / 12.0 * r + 0.25 * r * r + (2.0 * t - 1.0) / 48.0 * s + root3 / 36.0 * a;
 }
 
-double root(double t) { return std::sqrt(1.0 + 12.0 * t * (1.0 - t)); }
-double angle(double t) { return std::asin(0.5 * root3 * (2.0 * t - 1.0)); }
+double root(double t) {
+  return std::sqrt(1.0 + 12.0 * t * (1.0 - t));
+}
+double angle(double t) {
+  return std::asin(0.5 * root3 * (2.0 * t - 1.0));
+}
 
 }  // namespace
 

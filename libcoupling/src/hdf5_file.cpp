@@ -78,7 +78,9 @@ bool read_attribute(hid_t file, const std::string& group, const std::string& nam
 
 }  // namespace
 
-bool have_hdf5() { return true; }
+bool have_hdf5() {
+  return true;
+}
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures become exceptions, not print-outs
@@ -100,9 +102,13 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
   }
 }
 
-Hdf5File::~Hdf5File() { H5Fclose(file_); }
+Hdf5File::~Hdf5File() {
+  H5Fclose(file_);
+}
 
-void Hdf5File::fail(const std::string& what) const { throw FileError(fmt::format("{}: {}", path_.string(), what)); }
+void Hdf5File::fail(const std::string& what) const {
+  throw FileError(fmt::format("{}: {}", path_.string(), what));
+}
 
 void Hdf5File::write(const std::string& name, const double* values, const Shape& shape) {
   if (!write_dataset(file_, name, H5T_NATIVE_DOUBLE, values, shape)) fail(name + " cannot be written");
@@ -174,7 +180,9 @@ std::string Hdf5File::read_text(const std::string& group, const std::string& nam
   return value;
 }
 
-bool Hdf5File::exists(const std::string& name) const { return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0; }
+bool Hdf5File::exists(const std::string& name) const {
+  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+}
 
 std::vector<std::string> Hdf5File::children(const std::string& group) const {
   std::vector<std::string> names;
@@ -182,7 +190,8 @@ std::vector<std::string> Hdf5File::children(const std::string& group) const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  if (exists(group)) H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names, H5P_DEFAULT);
+  if (exists(group))
+    H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names, H5P_DEFAULT);
   return names;
 }
 

@@ -31,11 +31,11 @@ constexpr int point_set(int axis) {
 
 [[noreturn]] void refuse_marker(Eigen::Index marker, int axis, double position, const fluid::Grid& grid) {
   const char* name[] = {"x", "y", "z"};
-  throw SimulationStopped(
-      "marker " + std::to_string(marker) + " is at " + name[axis] + " = " + std::to_string(position) +
-          ", nearer than " + std::to_string(MarkerTransfer::wall_distance) + " grid spacings to the wall (box " +
-          std::to_string(grid.lower[axis]) + " to " + std::to_string(grid.upper[axis]) + ")",
-      "move the vesicle away from the wall or enlarge the box (domain.lower, domain.upper)");
+  throw SimulationStopped("marker " + std::to_string(marker) + " is at " + name[axis] + " = " +
+                              std::to_string(position) + ", nearer than " +
+                              std::to_string(MarkerTransfer::wall_distance) + " grid spacings to the wall (box " +
+                              std::to_string(grid.lower[axis]) + " to " + std::to_string(grid.upper[axis]) + ")",
+                          "move the vesicle away from the wall or enlarge the box (domain.lower, domain.upper)");
 }
 
 }  // namespace
@@ -69,8 +69,7 @@ void MarkerTransfer::update(const vesicle::VectorField& positions) {
 // contributions in the same order whatever the number of threads.
 template <class Centring>
 void MarkerTransfer::spread_component(int component, const vesicle::VectorField& force,
-                                      const vesicle::ScalarField& area_weight,
-                                      fluid::Field<Centring>& density) const {
+                                      const vesicle::ScalarField& area_weight, fluid::Field<Centring>& density) const {
   const double per_volume = 1.0 / grid_.cell_volume();
   constexpr int set_x = point_set<Centring>(0), set_y = point_set<Centring>(1), set_z = point_set<Centring>(2);
 #pragma omp parallel
@@ -124,7 +123,8 @@ void MarkerTransfer::clear_component(fluid::Field<Centring>& density) const {
   const int length = spread_box_.last[0] - spread_box_.first[0] + 1;
 #pragma omp parallel for schedule(static)
   for (int k = spread_box_.first[2]; k <= spread_box_.last[2]; ++k) {
-    for (int j = spread_box_.first[1]; j <= spread_box_.last[1]; ++j) std::fill_n(&density(spread_box_.first[0], j, k), length, 0.0);
+    for (int j = spread_box_.first[1]; j <= spread_box_.last[1]; ++j)
+      std::fill_n(&density(spread_box_.first[0], j, k), length, 0.0);
   }
 }
 

@@ -10,7 +10,9 @@
 namespace vesiflow::coupling {
 namespace {
 
-std::string interval(double every) { return every > 0.0 ? fmt::format("every {:g}", every) : "never"; }
+std::string interval(double every) {
+  return every > 0.0 ? fmt::format("every {:g}", every) : "never";
+}
 
 // Working arrays of one membrane, among them the doubled grid of the Laplacian of H and the Legendre tables.
 double membrane_bytes(int latitudes) {
@@ -45,8 +47,7 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.head("Resolution");
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
   plan.line("membranes", "{} of {} x {} markers, spacing about {:.2f} h at the equator of a sphere",
-            scene.vesicles.size(), scene.mesh.latitudes, 2 * scene.mesh.latitudes,
-            M_PI / scene.mesh.latitudes / h);
+            scene.vesicles.size(), scene.mesh.latitudes, 2 * scene.mesh.latitudes, M_PI / scene.mesh.latitudes / h);
   plan.line("time", "{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
   plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below 7 to 8{}", scene.tension_number(),
             scene.tension_number() > 7.0 ? "  <- WARNING: beyond it" : "");
@@ -59,8 +60,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.membrane.sigma0 > 0.0;
   const bool shear = scene.flow.type == FlowType::shear;
-  const int normal = scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees
-                                                   : vesicle::two_thirds_degrees(scene.mesh.latitudes);
+  const int normal =
+      scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
   plan.head("Each step");
   plan.part(true, "geometry", fmt::format("spherical harmonics of {} degrees", scene.mesh.latitudes), "");
   plan.part(true, "bending",
@@ -71,7 +72,8 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(tension, "tension", fmt::format("log tension, divergence form, sigma0 = {:g}", scene.membrane.sigma0),
             "membrane.sigma0 = 0");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
-            fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness), "membrane.volume is not \"penalty\"");
+            fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
+            "membrane.volume is not \"penalty\"");
   plan.part(true, "spread, interpolate", "smoothed 4-point delta, in the bounding box of the markers", "");
   plan.part(scene.fluid.convection, "convection", "skew-symmetric, extrapolated", "fluid.convection = false");
   plan.part(true, "viscosity", "implicit, constant coefficient: three fast direct solves (fft)", "");

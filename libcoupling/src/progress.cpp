@@ -58,10 +58,9 @@ void Progress::show(Simulation& simulation, Clock::time_point now) {
   const double seconds = std::chrono::duration<double>(now - start_).count();
   const auto done = static_cast<double>(simulation.steps() - first_step_);
   const double per_step = seconds / done;
-  const std::string text =
-      fmt::format("step {}/{}, t = {:.3f}, {:.3g} s/step, {} left, {}", simulation.steps(), last_step_,
-                  simulation.time(), per_step, duration(per_step * static_cast<double>(last_step_ - simulation.steps())),
-                  drift(simulation));
+  const std::string text = fmt::format(
+      "step {}/{}, t = {:.3f}, {:.3g} s/step, {} left, {}", simulation.steps(), last_step_, simulation.time(), per_step,
+      duration(per_step * static_cast<double>(last_step_ - simulation.steps())), drift(simulation));
   if (terminal_) {
     const double fraction = static_cast<double>(simulation.steps()) / static_cast<double>(last_step_);
     fmt::print(stderr, "\r{} {:3.0f} % {}\033[K", bar(fraction), 100.0 * fraction, text);

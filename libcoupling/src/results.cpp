@@ -18,10 +18,12 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5",    "vesicle.xdmf", "fluid.h5",
-                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml",    "pictures"};
+constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5", "vesicle.xdmf", "fluid.h5",
+                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures"};
 
-long step_of(const std::string& row) { return std::stol(row); }
+long step_of(const std::string& row) {
+  return std::stol(row);
+}
 
 // One write call for all rows: a kill leaves whole lines.
 void append_text(const std::filesystem::path& file, const std::string& text) {
@@ -35,9 +37,12 @@ void append_text(const std::filesystem::path& file, const std::string& text) {
 std::string column_names(const vesicle::Diagnostics& diagnostics) {
   std::string names = "step,time,vesicle";
   visit_record(diagnostics, [&](std::string_view name, const double*, int length) {
-    if (length == 1) names += fmt::format(",{}", name);
-    else if (name == "centroid") names += ",centroid_x,centroid_y,centroid_z";
-    else names += ",semi_axis_1,semi_axis_2,semi_axis_3";
+    if (length == 1)
+      names += fmt::format(",{}", name);
+    else if (name == "centroid")
+      names += ",centroid_x,centroid_y,centroid_z";
+    else
+      names += ",semi_axis_1,semi_axis_2,semi_axis_3";
   });
   return names + "\n";
 }

@@ -13,8 +13,8 @@ namespace vesiflow::coupling {
 struct RunRecord {
   std::string status = "running";
   std::optional<std::string> stop_reason;
-  long steps_taken = 0;         ///< by this process
-  double wall_seconds = 0.0;    ///< of these steps, output included
+  long steps_taken = 0;       ///< by this process
+  double wall_seconds = 0.0;  ///< of these steps, output included
   double output_seconds = 0.0;
 };
 

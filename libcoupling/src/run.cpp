@@ -5,8 +5,8 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
-#include <csignal>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 
 #include "atomic_file.h"
@@ -183,7 +183,9 @@ RunStatus Run::execute() {
 
 }  // namespace
 
-RunStatus run(Simulation& simulation, const RunOptions& options) { return Run(simulation, options).execute(); }
+RunStatus run(Simulation& simulation, const RunOptions& options) {
+  return Run(simulation, options).execute();
+}
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));

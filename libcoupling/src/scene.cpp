@@ -27,12 +27,12 @@ void check_domain(const Scene& scene, const std::string& name) {
 
 void check_time(const Scene& scene, const std::string& name) {
   if (scene.time.step > scene.time.end)
-    throw SceneError(fmt::format("{}: time.step = {:g}: must not be above time.end = {:g}", name, scene.time.step,
-                                 scene.time.end));
+    throw SceneError(
+        fmt::format("{}: time.step = {:g}: must not be above time.end = {:g}", name, scene.time.step, scene.time.end));
   if (scene.flow.type == FlowType::shear && std::abs(scene.flow.rate) * scene.time.step > largest_shear_per_step)
-    throw SceneError(fmt::format("{}: time.step = {:g}: flow.rate times time.step must be <= {:g}, so time.step <= {:g}",
-                                 name, scene.time.step, largest_shear_per_step,
-                                 largest_shear_per_step / std::abs(scene.flow.rate)));
+    throw SceneError(
+        fmt::format("{}: time.step = {:g}: flow.rate times time.step must be <= {:g}, so time.step <= {:g}", name,
+                    scene.time.step, largest_shear_per_step, largest_shear_per_step / std::abs(scene.flow.rate)));
   if (scene.tension_number() > largest_tension_number)
     throw SceneError(fmt::format(
         "{}: time.step = {:g}: g = time.step membrane.sigma0/(4 h) = {:.3g} is far beyond the stability limit of the "
@@ -46,9 +46,10 @@ void check_time(const Scene& scene, const std::string& name) {
 
 void check_physics(const Scene& scene, const std::string& name) {
   if (scene.fluid.viscosity_ratio != 1.0)
-    throw SceneError(fmt::format("{}: fluid.viscosity_ratio = {:g}: this version computes equal viscosities only; "
-                                 "allowed is 1",
-                                 name, scene.fluid.viscosity_ratio));
+    throw SceneError(
+        fmt::format("{}: fluid.viscosity_ratio = {:g}: this version computes equal viscosities only; "
+                    "allowed is 1",
+                    name, scene.fluid.viscosity_ratio));
   if (scene.mesh.normal_degrees > scene.mesh.latitudes)
     throw SceneError(fmt::format("{}: mesh.normal_degrees = {}: must be <= mesh.latitudes = {}", name,
                                  scene.mesh.normal_degrees, scene.mesh.latitudes));
@@ -61,14 +62,16 @@ void check_vesicle_keys(const VesicleScene& vesicle, const std::string& key, con
   const bool spheroid = vesicle.shape == Shape::prolate || vesicle.shape == Shape::oblate;
   const int given = (vesicle.reduced_volume ? 1 : 0) + (vesicle.aspect_ratio ? 1 : 0);
   if (spheroid && given != 1)
-    throw SceneError(fmt::format("{}: {}: a prolate or oblate needs reduced_volume or aspect_ratio, one of them", name,
-                                 key));
+    throw SceneError(
+        fmt::format("{}: {}: a prolate or oblate needs reduced_volume or aspect_ratio, one of them", name, key));
   if (!spheroid && given != 0)
-    throw SceneError(fmt::format("{}: {}: reduced_volume and aspect_ratio belong to prolate and oblate shapes; an "
-                                 "ellipsoid takes axes, a sphere nothing",
-                                 name, key));
+    throw SceneError(
+        fmt::format("{}: {}: reduced_volume and aspect_ratio belong to prolate and oblate shapes; an "
+                    "ellipsoid takes axes, a sphere nothing",
+                    name, key));
   if ((vesicle.shape == Shape::ellipsoid) != vesicle.axes.has_value())
-    throw SceneError(fmt::format("{}: {}: axes = [a, b, c] goes with shape = \"ellipsoid\", and only with it", name, key));
+    throw SceneError(
+        fmt::format("{}: {}: axes = [a, b, c] goes with shape = \"ellipsoid\", and only with it", name, key));
   const auto& a = vesicle.rotation_axis;
   if (!(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > 0.0))
     throw SceneError(fmt::format("{}: {}.rotation_axis = [0, 0, 0]: must not vanish", name, key));
@@ -83,11 +86,11 @@ void check_inside_box(const Scene& scene, std::size_t i, const std::string& name
     const double high = scene.domain.upper[u] - MarkerTransfer::wall_distance * h;
     const double from = markers.col(axis).minCoeff(), to = markers.col(axis).maxCoeff();
     if (from < low || to > high)
-      throw SceneError(fmt::format("{}: vesicles.{}.centre = [{:g}, {:g}, {:g}]: the vesicle reaches from {:.4g} to {:.4g} "
-                                   "along {}; it must stay within [{:.4g}, {:.4g}], {} grid spacings off the walls",
-                                   name, i, scene.vesicles[i].centre[0], scene.vesicles[i].centre[1],
-                                   scene.vesicles[i].centre[2], from, to, "xyz"[u], low, high,
-                                   MarkerTransfer::wall_distance));
+      throw SceneError(
+          fmt::format("{}: vesicles.{}.centre = [{:g}, {:g}, {:g}]: the vesicle reaches from {:.4g} to {:.4g} "
+                      "along {}; it must stay within [{:.4g}, {:.4g}], {} grid spacings off the walls",
+                      name, i, scene.vesicles[i].centre[0], scene.vesicles[i].centre[1], scene.vesicles[i].centre[2],
+                      from, to, "xyz"[u], low, high, MarkerTransfer::wall_distance));
   }
 }
 
@@ -100,7 +103,9 @@ double Scene::spacing() const {
   return largest;
 }
 
-double Scene::tension_number() const { return time.step * membrane.sigma0 / (4.0 * spacing()); }
+double Scene::tension_number() const {
+  return time.step * membrane.sigma0 / (4.0 * spacing());
+}
 
 long Scene::steps() const {
   // A last step that would only make up for round-off in time.end is not taken.

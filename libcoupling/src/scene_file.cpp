@@ -1,6 +1,7 @@
 // Reading scene files. The only place that knows TOML.
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,7 +9,6 @@
 #include <fstream>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "coupling/errors.h"
 #include "coupling/scene.h"
@@ -152,8 +152,7 @@ class Reader final : public KeyVisitor {
     if (const toml::node* node = find(key)) value = checked_vector(key, *node, range);
   }
 
-  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
-                       const Range& range) override {
+  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const Range& range) override {
     if (const toml::node* node = find(key)) value = checked_vector(key, *node, range);
   }
 
@@ -161,8 +160,7 @@ class Reader final : public KeyVisitor {
     const toml::node* node = find(key);
     if (node == nullptr) return;
     if (node->is_array() && node->as_array()->size() == 3) {
-      for (std::size_t i = 0; i < 3; ++i)
-        value[i] = checked_integer(key, *node, *node->as_array()->get(i), range);
+      for (std::size_t i = 0; i < 3; ++i) value[i] = checked_integer(key, *node, *node->as_array()->get(i), range);
     } else if (node->is_integer()) {
       value.fill(checked_integer(key, *node, *node, range));
     } else {
@@ -214,8 +212,7 @@ class Reader final : public KeyVisitor {
     return value;
   }
 
-  int checked_integer(std::string_view key, const toml::node& whole, const toml::node& node,
-                      const Range& range) const {
+  int checked_integer(std::string_view key, const toml::node& whole, const toml::node& node, const Range& range) const {
     if (!node.is_integer()) refuse(key, whole, fmt::format("must be a whole number {}", range.describe()));
     const auto value = node.as_integer()->get();
     if (!range.contains(static_cast<double>(value)) || value > std::numeric_limits<int>::max())
@@ -286,9 +283,10 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
   if (scene.membrane.g) {
     const double sigma0 = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
     if (gave_sigma0 && std::abs(sigma0 - scene.membrane.sigma0) > 5e-3 * sigma0)
-      throw SceneError(fmt::format("{}: membrane.g = {:g} and membrane.sigma0 = {:g} disagree: at this time step and "
-                                   "spacing g means sigma0 = {:g}; give one of them",
-                                   name, *scene.membrane.g, scene.membrane.sigma0, sigma0));
+      throw SceneError(
+          fmt::format("{}: membrane.g = {:g} and membrane.sigma0 = {:g} disagree: at this time step and "
+                      "spacing g means sigma0 = {:g}; give one of them",
+                      name, *scene.membrane.g, scene.membrane.sigma0, sigma0));
     if (!gave_sigma0) scene.membrane.sigma0 = sigma0;
     scene.membrane.g.reset();
   }

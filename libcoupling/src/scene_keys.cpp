@@ -32,7 +32,8 @@ bool Range::contains(double value) const {
 
 std::string Range::describe() const {
   const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
-  if (has_low && has_high) return fmt::format("in {}{:g}, {:g}{}", low_open ? '(' : '[', low, high, high_open ? ')' : ']');
+  if (has_low && has_high)
+    return fmt::format("in {}{:g}, {:g}{}", low_open ? '(' : '[', low, high, high_open ? ')' : ']');
   if (has_low) return fmt::format("{} {:g}", low_open ? ">" : ">=", low);
   if (has_high) return fmt::format("{} {:g}", high_open ? "<" : "<=", high);
   return "a finite number";

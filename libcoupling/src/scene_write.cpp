@@ -42,8 +42,7 @@ class Lister : public KeyVisitor {
   void vector(std::string_view key, std::array<double, 3>& value, const Range& range) override {
     show(key, array_of(value), range.describe());
   }
-  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
-                       const Range& range) override {
+  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const Range& range) override {
     show(key, value ? array_of(*value) : "", range.describe());
   }
   void cells(std::string_view key, std::array<int, 3>& value, const Range& range) override {

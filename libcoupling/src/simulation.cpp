@@ -63,7 +63,9 @@ struct Simulation::ImmersedVesicle {
   bool is_current = false;
 };
 
-fluid::Grid grid_of(const Scene& scene) { return {scene.domain.lower, scene.domain.upper, scene.domain.cells}; }
+fluid::Grid grid_of(const Scene& scene) {
+  return {scene.domain.lower, scene.domain.upper, scene.domain.cells};
+}
 
 fluid::FluidParameters fluid_parameters_of(const Scene& scene) {
   fluid::FluidParameters parameters;
@@ -154,9 +156,10 @@ void Simulation::check_limits(std::size_t i) const {
   if (membrane.parameters().sigma0 == 0.0) return;  // nothing holds local areas, so nothing is promised of them
   const double worst = (membrane.surface().area_weight() / membrane.target_areas() - 1.0).abs().maxCoeff();
   if (!(worst <= scene_.limits.local_area_error))
-    throw SimulationStopped(fmt::format("the local area error of vesicle {} is {:.3g}, above limits.local_area_error = {:g}",
-                                        i, worst, scene_.limits.local_area_error),
-                            blow_up_advice(scene_));
+    throw SimulationStopped(
+        fmt::format("the local area error of vesicle {} is {:.3g}, above limits.local_area_error = {:g}", i, worst,
+                    scene_.limits.local_area_error),
+        blow_up_advice(scene_));
 }
 
 void Simulation::interpolate_initial_velocity() {
@@ -175,7 +178,9 @@ std::vector<vesicle::Diagnostics> Simulation::measure() {
   return all;
 }
 
-double Simulation::max_divergence() const { return fluid::max_divergence(fluid_.velocity()); }
+double Simulation::max_divergence() const {
+  return fluid::max_divergence(fluid_.velocity());
+}
 
 const vesicle::Membrane& Simulation::membrane(std::size_t i) {
   try {
@@ -186,7 +191,9 @@ const vesicle::Membrane& Simulation::membrane(std::size_t i) {
   return vesicles_[i]->membrane;
 }
 
-const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const { return vesicles_.at(i)->velocity; }
+const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const {
+  return vesicles_.at(i)->velocity;
+}
 
 PhaseSeconds Simulation::phase_seconds() const {
   PhaseSeconds all = seconds_;
@@ -198,8 +205,8 @@ PhaseSeconds Simulation::phase_seconds() const {
 }
 
 SimulationState Simulation::state() const {
-  SimulationState state{fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(),
-                        fluid_.clock(), {}};
+  SimulationState state{
+      fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}};
   for (const auto& v : vesicles_) {
     const auto history = v->integrator->history();
     state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}});
@@ -209,8 +216,8 @@ SimulationState Simulation::state() const {
 
 void Simulation::restore(const SimulationState& state) {
   if (state.vesicles.size() != vesicles_.size())
-    throw std::invalid_argument(fmt::format("the state has {} vesicles, the scene {}", state.vesicles.size(),
-                                            vesicles_.size()));
+    throw std::invalid_argument(
+        fmt::format("the state has {} vesicles, the scene {}", state.vesicles.size(), vesicles_.size()));
   fluid_.restore(state.velocity, state.previous_velocity, state.pressure, state.clock);
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];

@@ -6,7 +6,9 @@
 
 namespace vesiflow::coupling {
 
-std::string step_group(long step) { return fmt::format("/steps/{:09d}", step); }
+std::string step_group(long step) {
+  return fmt::format("/steps/{:09d}", step);
+}
 
 std::map<long, double> stored_steps(const std::filesystem::path& path) {
   std::map<long, double> steps;

@@ -9,8 +9,12 @@ namespace {
 
 constexpr std::int64_t format_version = 1;
 
-std::uint64_t points_of(int latitudes) { return 2ULL * latitudes * latitudes + 2; }
-std::uint64_t triangles_of(int latitudes) { return 4ULL * latitudes * latitudes; }
+std::uint64_t points_of(int latitudes) {
+  return 2ULL * latitudes * latitudes + 2;
+}
+std::uint64_t triangles_of(int latitudes) {
+  return 4ULL * latitudes * latitudes;
+}
 
 // Two triangles per mesh cell and a fan around each pole, all counter-clockwise seen from outside.
 std::vector<std::int32_t> triangles(int latitudes) {

@@ -52,14 +52,12 @@ void WallVelocity::sample(Plane& plane) const {
       std::array<int, 3> index{};
       index[axis_a] = a;
       index[axis_b] = b;
-      Vector3 position =
-          point_position(grid_, component_centring(plane.component), index[0], index[1], index[2]);
+      Vector3 position = point_position(grid_, component_centring(plane.component), index[0], index[1], index[2]);
       position[plane.axis] = plane.side == 0 ? grid_.lower[plane.axis] : grid_.upper[plane.axis];
       const double value = velocity_(position, time_)[plane.component];
       if (!std::isfinite(value)) {
-        throw std::invalid_argument(message("boundary: velocity component ", plane.component, " is ", value,
-                                            " at (", position[0], ", ", position[1], ", ", position[2],
-                                            "), time ", time_));
+        throw std::invalid_argument(message("boundary: velocity component ", plane.component, " is ", value, " at (",
+                                            position[0], ", ", position[1], ", ", position[2], "), time ", time_));
       }
       plane.at(a, b) = value;
     }
@@ -97,10 +95,10 @@ void WallVelocity::balance_flux() {
   // Balanced up to round-off: leave the data exactly as given.
   if (std::abs(net) <= 64 * std::numeric_limits<double>::epsilon() * gross) return;
   if (std::abs(net) > max_relative_flux * gross) {
-    throw std::invalid_argument(message("boundary: the net outward flux through the walls is ", net,
-                                        " at time ", time_, ", with |u.n| integrating to ", gross,
-                                        "; an incompressible fluid needs zero (a relative ",
-                                        max_relative_flux, " is accepted as the error of sampling)"));
+    throw std::invalid_argument(message("boundary: the net outward flux through the walls is ", net, " at time ", time_,
+                                        ", with |u.n| integrating to ", gross,
+                                        "; an incompressible fluid needs zero (a relative ", max_relative_flux,
+                                        " is accepted as the error of sampling)"));
   }
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
@@ -159,8 +157,7 @@ void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
     const double h = grid_.spacing(axis);
     const double factor = mu * (on_wall ? 1.0 : 2.0) / (h * h);
     const int inset = on_wall ? 1 : 0;
-    double* first =
-        field.data + (wall.side == 0 ? inset : field.extent[axis] - 1 - inset) * stride(field, axis);
+    double* first = field.data + (wall.side == 0 ? inset : field.extent[axis] - 1 - inset) * stride(field, axis);
     // Along the wall, the points of the component that lie on other walls are not unknowns.
     const int skip_a = wall.component == axis_a ? 1 : 0;
     const int skip_b = wall.component == axis_b ? 1 : 0;

@@ -110,21 +110,18 @@ CholmodSolver::~CholmodSolver() = default;
 // Nested dissection of a cubic 7-point grid gives a factor of about 10 n^(4/3) numbers (measured from 32^3 to
 // 64^3).
 std::size_t CholmodSolver::estimate_memory(const EllipticProblem& problem) {
-  return static_cast<std::size_t>(10 * sizeof(double) *
-                                  std::pow(static_cast<double>(problem.unknowns()), 4.0 / 3.0));
+  return static_cast<std::size_t>(10 * sizeof(double) * std::pow(static_cast<double>(problem.unknowns()), 4.0 / 3.0));
 }
 
 void CholmodSolver::do_update(const EllipticProblem& problem) {
   const std::size_t n = factored_unknowns(problem);
-  const bool analysed =
-      workspace_ && problem.same_structure(this->problem()) && workspace_->matrix->nrow == n;
+  const bool analysed = workspace_ && problem.same_structure(this->problem()) && workspace_->matrix->nrow == n;
   if (analysed && problem.alpha == this->problem().alpha && problem.mu == this->problem().mu) return;
   if (!analysed) {
     const auto bytes = static_cast<double>(estimate_memory(problem));
     if (bytes > options_.memory_limit) {
-      throw std::invalid_argument(message("elliptic solver: 'cholmod' would need about ", bytes / 1e9,
-                                          " GB for ", problem.unknowns(), " unknowns, the limit is ",
-                                          options_.memory_limit / 1e9,
+      throw std::invalid_argument(message("elliptic solver: 'cholmod' would need about ", bytes / 1e9, " GB for ",
+                                          problem.unknowns(), " unknowns, the limit is ", options_.memory_limit / 1e9,
                                           " GB; raise memory_limit, use a smaller grid, or use 'fft'"));
     }
     workspace_ = std::make_unique<Workspace>(n);
@@ -161,8 +158,7 @@ SolveReport CholmodSolver::do_solve(ConstView rhs, View x) {
       b[start + i] = rhs.row(j, k)[i] - report.removed_mean;
     }
   });
-  cholmod_l_solve2(CHOLMOD_A, w.factor, w.rhs, nullptr, &w.solution, nullptr, &w.work_y, &w.work_e,
-                   &w.common);
+  cholmod_l_solve2(CHOLMOD_A, w.factor, w.rhs, nullptr, &w.solution, nullptr, &w.work_y, &w.work_e, &w.common);
   w.check("solve");
   const auto* solution = static_cast<const double*>(w.solution->x);
   double mean = 0.0;

@@ -19,7 +19,7 @@ UnknownRange unknown_range(const Grid& grid, int component);
 // Never inlined: a restored run computes the convection of the previous velocity here, where the
 // uninterrupted run computed it one step earlier, and both must get the same instructions and so the same
 // bits.
-[[gnu::noinline]] void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int component,
-                                      int j, int k, double* out);
+[[gnu::noinline]] void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int component, int j, int k,
+                                      double* out);
 
 }  // namespace vesiflow::fluid

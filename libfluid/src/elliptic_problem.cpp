@@ -13,12 +13,11 @@ const char* name(BoundaryCondition boundary) {
   return boundary == BoundaryCondition::dirichlet ? "dirichlet" : "neumann";
 }
 
-EllipticProblem::EllipticProblem(const Grid& grid_, Centring centring_, BoundaryCondition boundary_,
-                                 double alpha_, double mu_)
+EllipticProblem::EllipticProblem(const Grid& grid_, Centring centring_, BoundaryCondition boundary_, double alpha_,
+                                 double mu_)
     : grid(grid_), centring(centring_), boundary(boundary_), alpha(alpha_), mu(mu_) {
   if (!std::isfinite(alpha) || alpha < 0.0) {
-    throw std::invalid_argument(
-        message("elliptic problem: alpha is ", alpha, "; it must be finite and >= 0"));
+    throw std::invalid_argument(message("elliptic problem: alpha is ", alpha, "; it must be finite and >= 0"));
   }
   if (!std::isfinite(mu) || mu <= 0.0) {
     throw std::invalid_argument(message("elliptic problem: mu is ", mu, "; it must be finite and > 0"));

@@ -17,9 +17,9 @@ namespace {
 
 void check_shape(const char* what, const std::array<int, 3>& shape, const std::array<int, 3>& expected) {
   if (shape == expected) return;
-  throw std::invalid_argument(message("elliptic solver: ", what, " is ", shape[0], " x ", shape[1], " x ",
-                                      shape[2], ", the problem has ", expected[0], " x ", expected[1], " x ",
-                                      expected[2], " unknowns"));
+  throw std::invalid_argument(message("elliptic solver: ", what, " is ", shape[0], " x ", shape[1], " x ", shape[2],
+                                      ", the problem has ", expected[0], " x ", expected[1], " x ", expected[2],
+                                      " unknowns"));
 }
 
 // The inverse of an elliptic operator is full: one number of b that is not finite spoils every number of x.
@@ -57,40 +57,36 @@ SolveReport EllipticSolver::solve(ConstView rhs, View x) {
   check_shape("the solution", x.extent, problem_.extent());
   SolveReport report = do_solve(rhs, x);
   if (!is_finite(x)) {
-    throw std::runtime_error(
-        "elliptic solver: the solution is not finite, because the right-hand side is not");
+    throw std::runtime_error("elliptic solver: the solution is not finite, because the right-hand side is not");
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 
-std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem,
-                                                     const SolverOptions& options) {
+std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem, const SolverOptions& options) {
   using Result = std::unique_ptr<EllipticSolver>;
-  return std::visit(
-      Overloaded{[&](const FftOptions&) -> Result { return std::make_unique<FftSolver>(problem); },
-                 [&]([[maybe_unused]] const CholmodOptions& cholmod) -> Result {
+  return std::visit(Overloaded{[&](const FftOptions&) -> Result { return std::make_unique<FftSolver>(problem); },
+                               [&]([[maybe_unused]] const CholmodOptions& cholmod) -> Result {
 #ifdef VESIFLOW_WITH_CHOLMOD
-                   return std::make_unique<CholmodSolver>(problem, cholmod);
-#else
-                   refuse_cholmod();
-#endif
-                 }},
-      options);
-}
-
-std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options) {
-  return std::visit(Overloaded{[&](const FftOptions&) {
-                                 return FftSolver::estimate_memory(problem, omp_get_max_threads());
-                               },
-                               [&](const CholmodOptions&) -> std::size_t {
-#ifdef VESIFLOW_WITH_CHOLMOD
-                                 return CholmodSolver::estimate_memory(problem);
+                                 return std::make_unique<CholmodSolver>(problem, cholmod);
 #else
                                  refuse_cholmod();
 #endif
                                }},
                     options);
+}
+
+std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options) {
+  return std::visit(
+      Overloaded{[&](const FftOptions&) { return FftSolver::estimate_memory(problem, omp_get_max_threads()); },
+                 [&](const CholmodOptions&) -> std::size_t {
+#ifdef VESIFLOW_WITH_CHOLMOD
+                   return CholmodSolver::estimate_memory(problem);
+#else
+                   refuse_cholmod();
+#endif
+                 }},
+      options);
 }
 
 }  // namespace vesiflow::fluid

@@ -71,15 +71,14 @@ void FftSolver::do_update(const EllipticProblem& problem) {
     forward_ = std::make_unique<TransformPlan>(plane, row_stride_, bases, Direction::forward);
     backward_ = std::make_unique<TransformPlan>(plane, row_stride_, bases, Direction::backward);
     eigenvalues_ = {eigenvalues(problem, 0), eigenvalues(problem, 1)};
-    normalisation_ = 1.0 / (TransformPlan::pair_factor(bases[0], plane[0]) *
-                            TransformPlan::pair_factor(bases[1], plane[1]));
+    normalisation_ =
+        1.0 / (TransformPlan::pair_factor(bases[0], plane[0]) * TransformPlan::pair_factor(bases[1], plane[1]));
     const double h = problem.grid.spacing(2);
     z_coupling_ = 1.0 / (h * h);
     z_end_diagonal_ = problem.end_diagonal(2);
     scratch_.clear();
   }
-  while (static_cast<int>(scratch_.size()) < omp_get_max_threads())
-    scratch_.emplace_back(extent_, row_stride_);
+  while (static_cast<int>(scratch_.size()) < omp_get_max_threads()) scratch_.emplace_back(extent_, row_stride_);
 }
 
 SolveReport FftSolver::do_solve(ConstView rhs, View x) {

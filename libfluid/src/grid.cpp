@@ -12,12 +12,12 @@ Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3
     : lower(lower_), upper(upper_), cells(cells_) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(lower[axis]) || !std::isfinite(upper[axis]) || !(upper[axis] > lower[axis])) {
-      throw std::invalid_argument(message("grid: axis ", axis, " runs from ", lower[axis], " to ",
-                                          upper[axis], "; both must be finite and the upper end larger"));
+      throw std::invalid_argument(message("grid: axis ", axis, " runs from ", lower[axis], " to ", upper[axis],
+                                          "; both must be finite and the upper end larger"));
     }
     if (cells[axis] < min_cells) {
-      throw std::invalid_argument(message("grid: ", cells[axis], " cells along axis ", axis, "; at least ",
-                                          min_cells, " are needed"));
+      throw std::invalid_argument(
+          message("grid: ", cells[axis], " cells along axis ", axis, "; at least ", min_cells, " are needed"));
     }
   }
 }

@@ -77,8 +77,7 @@ double max_abs(const FaceVector& u) {
 
 class NavierStokes::Stepper {
  public:
-  Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary,
-          bool steady_boundary);
+  Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary, bool steady_boundary);
 
   void set_velocity(const std::function<Vector3(const Vector3&)>& function);
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
@@ -107,8 +106,8 @@ class NavierStokes::Stepper {
   std::array<std::unique_ptr<EllipticSolver>, 3> velocity_solvers_;
 };
 
-NavierStokes::Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_,
-                               BoundaryVelocity boundary, bool steady_boundary)
+NavierStokes::Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary,
+                               bool steady_boundary)
     : grid(grid_),
       parameters(checked(parameters_)),
       walls(grid_, std::move(boundary), steady_boundary),
@@ -134,8 +133,7 @@ void NavierStokes::Stepper::start() {
 }
 
 void NavierStokes::Stepper::make_divergence_free() {
-  const double round_off =
-      16 * std::numeric_limits<double>::epsilon() * max_abs(velocity) / grid.min_spacing();
+  const double round_off = 16 * std::numeric_limits<double>::epsilon() * max_abs(velocity) / grid.min_spacing();
   if (max_divergence(velocity) <= round_off) return;
   divergence(velocity, chi_);
   pressure_solver_->solve(chi_.unknowns(), chi_.unknowns());
@@ -164,10 +162,9 @@ void NavierStokes::Stepper::restore(const FaceVector& velocity_, const FaceVecto
   }
   if (clock_.steps < 0 || !std::isfinite(clock_.time) || !std::isfinite(clock_.previous_time) ||
       (clock_.steps > 0 && !(clock_.time_step > 0.0 && std::isfinite(clock_.time_step)))) {
-    throw std::invalid_argument(message("fluid: the state to restore has time ", clock_.time,
-                                        ", previous time ", clock_.previous_time, ", time step ",
-                                        clock_.time_step, " and step number ", clock_.steps,
-                                        "; they must be finite, and the time step positive"));
+    throw std::invalid_argument(message("fluid: the state to restore has time ", clock_.time, ", previous time ",
+                                        clock_.previous_time, ", time step ", clock_.time_step, " and step number ",
+                                        clock_.steps, "; they must be finite, and the time step positive"));
   }
   clock = clock_;
   copy(velocity_, velocity);
@@ -195,8 +192,8 @@ void NavierStokes::Stepper::step(double dt) {
     solve_momentum();
     project(a);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(message("fluid: step ", clock.steps + 1, " to time ", clock.time + dt,
-                                     " with time step ", dt, " failed: ", error.what()));
+    throw std::runtime_error(message("fluid: step ", clock.steps + 1, " to time ", clock.time + dt, " with time step ",
+                                     dt, " failed: ", error.what()));
   }
   std::swap(velocity, previous);
   clock = {clock.time + dt, clock.time, dt, clock.steps + 1};
@@ -251,8 +248,8 @@ void NavierStokes::set_velocity(const std::function<Vector3(const Vector3&)>& ve
   stepper_->set_velocity(velocity);
 }
 
-void NavierStokes::restore(const FaceVector& velocity, const FaceVector& previous_velocity,
-                           const Field<Cell>& pressure, const FluidClock& clock) {
+void NavierStokes::restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
+                           const FluidClock& clock) {
   stepper_->restore(velocity, previous_velocity, pressure, clock);
 }
 
@@ -294,8 +291,8 @@ std::size_t NavierStokes::estimate_memory(const Grid& grid, const FluidParameter
     return sizeof(double) * static_cast<std::size_t>(n[0] + 2) * (n[1] + 2) * (n[2] + 2);
   };
   const std::size_t vectors = parameters.convection ? 4 : 3;
-  std::size_t bytes = 2 * field_bytes(Centring::cell) +
-                      estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver);
+  std::size_t bytes =
+      2 * field_bytes(Centring::cell) + estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver);
   for (int component = 0; component < 3; ++component) {
     bytes += vectors * field_bytes(face_centrings[component]) +
              estimate_solver_memory(velocity_problem(grid, component, 1.0, 1.0), parameters.velocity_solver);

@@ -71,8 +71,7 @@ double max_divergence(const FaceVector& u) {
       const double* x = u.x.row(j, k);
       const double* y = u.y.row(j, k);
       const double* z = u.z.row(j, k);
-      for (int i = 0; i < n[0]; ++i)
-        largest = std::max(largest, std::abs(cell_divergence(x + i, y + i, z + i)));
+      for (int i = 0; i < n[0]; ++i) largest = std::max(largest, std::abs(cell_divergence(x + i, y + i, z + i)));
     }
   }
   return largest;
@@ -84,8 +83,7 @@ UnknownRange unknown_range(const Grid& grid, int component) {
   return range;
 }
 
-void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int component, int j, int k,
-                    double* out) {
+void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int component, int j, int k, double* out) {
   // Along axis d: the neighbours of c, and the four velocities u_d whose pairs average to the points in
   // between. For d = c these are neighbours of c itself; else the faces of the two cells on either side of
   // c's face.
@@ -100,13 +98,11 @@ void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int com
     const std::ptrdiff_t d_step = stride(u[d], d);
     const double* above_0 = u[d].row(j, k) + d_step;
     const double* above_1 = above_0 - stride(u[d], component);
-    axes[d] = {
-        c + c_step, c - c_step, above_0, above_1, above_0 - d_step, above_1 - d_step, 0.25 / grid.spacing(d)};
+    axes[d] = {c + c_step, c - c_step, above_0, above_1, above_0 - d_step, above_1 - d_step, 0.25 / grid.spacing(d)};
   }
   const auto [x, y, z] = axes;
   const auto flux_difference = [](const Axis& a, int i) {
-    return a.factor *
-           ((a.above_0[i] + a.above_1[i]) * a.c_above[i] - (a.below_0[i] + a.below_1[i]) * a.c_below[i]);
+    return a.factor * ((a.above_0[i] + a.above_1[i]) * a.c_above[i] - (a.below_0[i] + a.below_1[i]) * a.c_below[i]);
   };
   const UnknownRange range = unknown_range(grid, component);
 #pragma omp simd

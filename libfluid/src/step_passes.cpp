@@ -58,9 +58,9 @@ StepCoefficients step_coefficients(double dt, double previous_dt) {
   return {(1.0 + 2.0 * r) / (1.0 + r), 1.0 + r, r * r / (1.0 + r), 1.0 + r, r};
 }
 
-void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt,
-                    const FaceVector& u, const Field<Cell>& pressure, const FaceVector& force,
-                    FaceVector* convection, FaceVector& previous) {
+void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
+                    const Field<Cell>& pressure, const FaceVector& force, FaceVector* convection,
+                    FaceVector& previous) {
   const Grid& grid = u.grid();
   const double c1 = reynolds_number * coefficients.a1 / dt;
   const double c2 = reynolds_number * coefficients.a2 / dt;
@@ -111,8 +111,7 @@ void remove_divergence(const Field<Cell>& chi, FaceVector& u) {
   }
 }
 
-void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u,
-                                   Field<Cell>& pressure) {
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u, Field<Cell>& pressure) {
   set_neumann_ghosts(chi);
   const Field<Cell>& c = chi;
   const Vector3 per_h = inverse_spacing(chi.grid());
@@ -130,8 +129,8 @@ void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVe
       double* p = pressure.row(j, k);
 #pragma omp simd
       for (int i = 0; i < c.extent(0); ++i) {
-        p[i] += m[0] * (here[i - 1] + here[i + 1]) + m[1] * (south[i] + north[i]) +
-                m[2] * (below[i] + above[i]) - diagonal * here[i];
+        p[i] += m[0] * (here[i - 1] + here[i + 1]) + m[1] * (south[i] + north[i]) + m[2] * (below[i] + above[i]) -
+                diagonal * here[i];
       }
     }
   }

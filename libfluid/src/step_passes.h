@@ -19,16 +19,14 @@ StepCoefficients step_coefficients(double dt, double previous_dt);
 //   Re [(a1 u - a2 previous) / dt - b1 N(u) + b2 N(previous)] - grad p + f.
 // previous is overwritten by them. convection holds N(previous) and is overwritten by N(u); null leaves
 // convection out.
-void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt,
-                    const FaceVector& u, const Field<Cell>& pressure, const FaceVector& force,
-                    FaceVector* convection, FaceVector& previous);
+void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
+                    const Field<Cell>& pressure, const FaceVector& force, FaceVector* convection, FaceVector& previous);
 
 // Given -Lap chi = div u: u += grad chi on the inner faces.
 void remove_divergence(const Field<Cell>& chi, FaceVector& u);
 
 // The same, and the pressure update p += phi - mu div u with phi = -a chi, where div u = -Lap chi. Sets chi's
 // ghosts.
-void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u,
-                                   Field<Cell>& pressure);
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u, Field<Cell>& pressure);
 
 }  // namespace vesiflow::fluid

@@ -58,8 +58,7 @@ TransformPlan::TransformPlan(std::array<int, 2> extent, std::ptrdiff_t row_strid
   handle_->plan = fftw_plan_many_r2r(2, size.data(), 1, plane.get(), embedding.data(), 1, 0, plane.get(),
                                      embedding.data(), 1, 0, kinds.data(), FFTW_ESTIMATE);
   if (handle_->plan == nullptr) {
-    throw std::runtime_error(
-        message("transform: FFTW made no plan for ", extent[0], " x ", extent[1], " points"));
+    throw std::runtime_error(message("transform: FFTW made no plan for ", extent[0], " x ", extent[1], " points"));
   }
 }
 

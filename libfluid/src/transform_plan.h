@@ -28,8 +28,7 @@ enum class Direction { forward, backward };
 // pair_factor() of each axis.
 class TransformPlan {
  public:
-  TransformPlan(std::array<int, 2> extent, std::ptrdiff_t row_stride, std::array<Basis, 2> basis,
-                Direction direction);
+  TransformPlan(std::array<int, 2> extent, std::ptrdiff_t row_stride, std::array<Basis, 2> basis, Direction direction);
   ~TransformPlan();
   TransformPlan(const TransformPlan&) = delete;
   TransformPlan& operator=(const TransformPlan&) = delete;

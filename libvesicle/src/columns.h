@@ -8,8 +8,7 @@ namespace vesiflow::vesicle {
 /// these where expressions would take several passes over memory.
 template <class Value, class Field>
 struct BasicColumns {
-  explicit BasicColumns(Field& field)
-      : x(field.col(0).data()), y(field.col(1).data()), z(field.col(2).data()) {}
+  explicit BasicColumns(Field& field) : x(field.col(0).data()), y(field.col(1).data()), z(field.col(2).data()) {}
   Value* const x;
   Value* const y;
   Value* const z;

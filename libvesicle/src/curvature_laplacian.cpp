@@ -38,8 +38,8 @@ class CurvatureLaplacian::Implementation {
   /// Eq. (11) on the fine grid, Eq. (12) at the markers.
   void cartesian_divergence(const SurfaceGeometry& geometry, ScalarField& result) {
     for (int component = 0; component < 3; ++component)
-      flux_.col(component) = theta_ * fine_geometry_.dual_theta().col(component) +
-                             phi_ * fine_geometry_.dual_phi().col(component);
+      flux_.col(component) =
+          theta_ * fine_geometry_.dual_theta().col(component) + phi_ * fine_geometry_.dual_phi().col(component);
     fine_.analysis(flux_, vector_coefficients_);
     result_.gradient(vector_coefficients_, gradient_theta_, gradient_phi_);
     result = (gradient_theta_ * geometry.dual_theta() + gradient_phi_ * geometry.dual_phi()).rowwise().sum();

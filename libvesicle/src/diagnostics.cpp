@@ -86,8 +86,7 @@ double spectrum_tail(const Surface& surface) {
   return coefficients.energy(two_thirds_degrees(degrees), degrees) / coefficients.energy(1, degrees);
 }
 
-Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity,
-                    const VectorField& mesh_velocity) {
+Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& mesh_velocity) {
   const Surface& surface = membrane.surface();
   const ScalarField& areas = surface.area_weight();
   const VolumeMoments moments = volume_moments(surface);

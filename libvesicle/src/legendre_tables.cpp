@@ -86,13 +86,11 @@ LegendreTable synthesis_table(LegendreKind kind, int degrees, int latitudes) {
   LegendreTable table;
   for (int m = 0; m < degrees; ++m) {
     auto& parities = table.order.emplace_back();
-    for (int parity : {0, 1})
-      parities[parity] = PanelMatrix((latitudes + 1) / 2, degree_count(degrees, m, parity));
+    for (int parity : {0, 1}) parities[parity] = PanelMatrix((latitudes + 1) / 2, degree_count(degrees, m, parity));
   }
-  for_each_entry(kind, degrees, latitudes, gauss_legendre(latitudes),
-                 [&](int j, int n, int m, long double value) {
-                   table.order[m][(n - m) % 2](j, (n - m) / 2) = flushed(value);
-                 });
+  for_each_entry(kind, degrees, latitudes, gauss_legendre(latitudes), [&](int j, int n, int m, long double value) {
+    table.order[m][(n - m) % 2](j, (n - m) / 2) = flushed(value);
+  });
   return table;
 }
 
@@ -100,8 +98,7 @@ LegendreTable analysis_table(int degrees, int latitudes) {
   LegendreTable table;
   for (int m = 0; m < degrees; ++m) {
     auto& parities = table.order.emplace_back();
-    for (int parity : {0, 1})
-      parities[parity] = PanelMatrix(degree_count(degrees, m, parity), (latitudes + 1) / 2);
+    for (int parity : {0, 1}) parities[parity] = PanelMatrix(degree_count(degrees, m, parity), (latitudes + 1) / 2);
   }
   const GaussLegendre rule = gauss_legendre(latitudes);
   const long double spacing = std::numbers::pi_v<long double> / latitudes;

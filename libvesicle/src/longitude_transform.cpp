@@ -41,8 +41,8 @@ LongitudeTransform::LongitudeTransform(int latitudes, int longitudes)
   // the uninterrupted one bit for bit.
   const auto plan = [&](Complex* in, int in_stride, Complex* out, int out_stride, int sign) {
     const int n[] = {longitudes_};
-    fftw_plan result = fftw_plan_many_dft(1, n, pairs(), as_fftw(in), nullptr, 1, in_stride, as_fftw(out),
-                                          nullptr, 1, out_stride, sign, FFTW_ESTIMATE);
+    fftw_plan result = fftw_plan_many_dft(1, n, pairs(), as_fftw(in), nullptr, 1, in_stride, as_fftw(out), nullptr, 1,
+                                          out_stride, sign, FFTW_ESTIMATE);
     if (!result) throw std::runtime_error("FFTW could not plan the longitude transforms");
     return result;
   };

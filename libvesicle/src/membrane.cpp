@@ -10,11 +10,10 @@ namespace vesiflow::vesicle {
 namespace {
 
 const MembraneParameters& checked(const MembraneParameters& p) {
-  check_argument(p.capillary_number > 0, "capillary_number", p.capillary_number,
-                 "> 0 (infinity: no bending)");
+  check_argument(p.capillary_number > 0, "capillary_number", p.capillary_number, "> 0 (infinity: no bending)");
   check_argument(std::isfinite(p.sigma0) && p.sigma0 >= 0, "sigma0", p.sigma0, "finite and >= 0");
-  check_argument(std::isfinite(p.volume_stiffness) && p.volume_stiffness >= 0, "volume_stiffness",
-                 p.volume_stiffness, "finite and >= 0");
+  check_argument(std::isfinite(p.volume_stiffness) && p.volume_stiffness >= 0, "volume_stiffness", p.volume_stiffness,
+                 "finite and >= 0");
   check_argument(p.normal_degrees >= 0, "normal_degrees", p.normal_degrees, ">= 0 (0: the 2N/3 rule)");
   check_argument(p.tangential_degrees >= 1, "tangential_degrees", p.tangential_degrees, ">= 1");
   return p;
@@ -29,8 +28,7 @@ int normal_degrees(const MembraneParameters& p, int latitudes) {
 Membrane::Membrane(const VectorField& initial_positions, int latitudes, const MembraneParameters& parameters)
     : parameters_(checked(parameters)),
       surface_(latitudes),
-      filter_(surface_.grid(), parameters.filter, normal_degrees(parameters, latitudes),
-              parameters.tangential_degrees),
+      filter_(surface_.grid(), parameters.filter, normal_degrees(parameters, latitudes), parameters.tangential_degrees),
       positions_(initial_positions),
       force_(VectorField::Zero(surface_.grid().size(), 3)),
       tension_(ScalarField::Zero(surface_.grid().size())) {
@@ -67,15 +65,13 @@ const VectorField& Membrane::compute_force() {
 
 void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorField& filtered) {
   filter_.apply(surface_, velocity, filtered);
-  if (parameters_.volume == VolumeControl::projection)
-    project_volume_rate(surface_, initial_volume_, dt, filtered);
+  if (parameters_.volume == VolumeControl::projection) project_volume_rate(surface_, initial_volume_, dt, filtered);
 }
 
-void Membrane::advance(const VectorField& new_positions, const VectorField& velocity,
-                       const VectorField& filtered, double dt) {
+void Membrane::advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
+                       double dt) {
   check_markers(new_positions, "new_positions", positions_.rows());
-  if (tension_force_)
-    target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
+  if (tension_force_) target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
   positions_ = new_positions;
 }
 
@@ -97,10 +93,8 @@ void Membrane::restore(const MembraneState& state) {
   check_markers(state.positions, "positions", markers);
   check_markers(state.target_areas, "target_areas", markers);
   check_markers(state.initial_areas, "initial_areas", markers);
-  check_argument((state.target_areas > 0).all(), "smallest target area", state.target_areas.minCoeff(),
-                 "> 0");
-  check_argument((state.initial_areas > 0).all(), "smallest initial area", state.initial_areas.minCoeff(),
-                 "> 0");
+  check_argument((state.target_areas > 0).all(), "smallest target area", state.target_areas.minCoeff(), "> 0");
+  check_argument((state.initial_areas > 0).all(), "smallest initial area", state.initial_areas.minCoeff(), "> 0");
   check_argument(state.initial_volume > 0, "initial_volume", state.initial_volume, "> 0");
   positions_ = state.positions;
   target_areas_ = state.target_areas;

@@ -16,8 +16,7 @@ void combine(const VectorField& normal, const VectorField& a, const VectorField&
   const Eigen::Index size = normal.rows();
 #pragma GCC ivdep
   for (Eigen::Index k = 0; k < size; ++k) {
-    const double excess =
-        (u.x[k] - v.x[k]) * n.x[k] + (u.y[k] - v.y[k]) * n.y[k] + (u.z[k] - v.z[k]) * n.z[k];
+    const double excess = (u.x[k] - v.x[k]) * n.x[k] + (u.y[k] - v.y[k]) * n.y[k] + (u.z[k] - v.z[k]) * n.z[k];
     r.x[k] = v.x[k] + excess * n.x[k];
     r.y[k] = v.y[k] + excess * n.y[k];
     r.z[k] = v.z[k] + excess * n.z[k];
@@ -38,8 +37,7 @@ int two_thirds_degrees(int latitudes) {
 MeshFilter::MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_degrees, int tangential_degrees)
     : order_(order),
       normal_harmonics_(checked_degrees(normal_degrees, "normal_degrees", grid.latitudes()), grid),
-      tangential_harmonics_(checked_degrees(tangential_degrees, "tangential_degrees", grid.latitudes()),
-                            grid),
+      tangential_harmonics_(checked_degrees(tangential_degrees, "tangential_degrees", grid.latitudes()), grid),
       part_(grid.size(), 3) {}
 
 void MeshFilter::apply(const Surface& surface, const VectorField& velocity, VectorField& filtered) {
@@ -52,8 +50,7 @@ void MeshFilter::apply(const Surface& surface, const VectorField& velocity, Vect
     filter_components(surface.normal(), velocity, filtered);
 }
 
-void MeshFilter::filter_velocity(const VectorField& normal, const VectorField& velocity,
-                                 VectorField& filtered) {
+void MeshFilter::filter_velocity(const VectorField& normal, const VectorField& velocity, VectorField& filtered) {
   // One analysis serves both filters: each transform reads the degrees it keeps.
   const bool normal_has_more = normal_harmonics_.degrees() >= tangential_harmonics_.degrees();
   (normal_has_more ? normal_harmonics_ : tangential_harmonics_).analysis(velocity, coefficients_);
@@ -62,11 +59,9 @@ void MeshFilter::filter_velocity(const VectorField& normal, const VectorField& v
   combine(normal, filtered, part_, filtered);
 }
 
-void MeshFilter::filter_components(const VectorField& normal, const VectorField& velocity,
-                                   VectorField& filtered) {
+void MeshFilter::filter_components(const VectorField& normal, const VectorField& velocity, VectorField& filtered) {
   const auto normal_speed = (velocity * normal).rowwise().sum();
-  for (int component = 0; component < 3; ++component)
-    part_.col(component) = normal_speed * normal.col(component);
+  for (int component = 0; component < 3; ++component) part_.col(component) = normal_speed * normal.col(component);
   filtered = velocity - part_;
   tangential_harmonics_.analysis(filtered, coefficients_);
   tangential_harmonics_.synthesis(coefficients_, filtered);

@@ -31,11 +31,9 @@ class PanelMatrix {
   void multiply(const double* factor, int factor_stride, int width, double* result, int result_stride) const {
     int done = 0;
     for (; width - done >= 6; done += 6)
-      multiply_block<6>(factor + done, factor_stride, result + std::ptrdiff_t(done) * result_stride,
-                        result_stride);
+      multiply_block<6>(factor + done, factor_stride, result + std::ptrdiff_t(done) * result_stride, result_stride);
     for (; width - done >= 2; done += 2)
-      multiply_block<2>(factor + done, factor_stride, result + std::ptrdiff_t(done) * result_stride,
-                        result_stride);
+      multiply_block<2>(factor + done, factor_stride, result + std::ptrdiff_t(done) * result_stride, result_stride);
   }
 
  private:
@@ -46,8 +44,7 @@ class PanelMatrix {
 #else
   static constexpr int lanes = 2;
 #endif
-  using Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(alignof(double)), may_alias)) =
-      double;
+  using Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(alignof(double)), may_alias)) = double;
   static constexpr int vectors = panel_rows / lanes;
 
   /// The accumulators of 6 columns by one panel stay in registers with AVX and up, for which all inner loops

@@ -14,8 +14,8 @@ namespace {
 using std::numbers::pi;
 
 void check_placement(const Placement& placement) {
-  check_argument(placement.effective_radius > 0 && std::isfinite(placement.effective_radius),
-                 "effective_radius", placement.effective_radius, "finite and > 0");
+  check_argument(placement.effective_radius > 0 && std::isfinite(placement.effective_radius), "effective_radius",
+                 placement.effective_radius, "finite and > 0");
   constexpr double tolerance = 1e-12;
   if (!placement.rotation.isUnitary(tolerance) || !(placement.rotation.determinant() > 0))
     throw std::invalid_argument("rotation: must be a proper rotation matrix");
@@ -46,8 +46,7 @@ double reduced_volume(double area, double volume) {
 }
 
 double spheroid_reduced_volume(double aspect_ratio) {
-  check_argument(aspect_ratio > 0 && std::isfinite(aspect_ratio), "aspect_ratio", aspect_ratio,
-                 "finite and > 0");
+  check_argument(aspect_ratio > 0 && std::isfinite(aspect_ratio), "aspect_ratio", aspect_ratio, "finite and > 0");
   // Area over 2 pi a^2 of the spheroid with equatorial semi-axis a and polar semi-axis c = q a.
   const double q = aspect_ratio;
   double area = 2;
@@ -70,16 +69,15 @@ double oblate_aspect_ratio(double reduced_volume) {
 }
 
 VectorField ellipsoid(const SphereGrid& grid, const Vector3& proportions, const Placement& placement) {
-  for (double p : proportions)
-    check_argument(p > 0 && std::isfinite(p), "semi-axis proportion", p, "finite and > 0");
+  for (double p : proportions) check_argument(p > 0 && std::isfinite(p), "semi-axis proportion", p, "finite and > 0");
   check_placement(placement);
   const Vector3 semi_axes = proportions * (placement.effective_radius / std::cbrt(proportions.prod()));
   VectorField positions(grid.size(), 3);
   for (int j = 0; j < grid.latitudes(); ++j)
     for (int i = 0; i < grid.longitudes(); ++i) {
       const double phi = grid.longitude(i);
-      const Vector3 direction(grid.sin_colatitude()[j] * std::cos(phi),
-                              grid.sin_colatitude()[j] * std::sin(phi), grid.cos_colatitude()[j]);
+      const Vector3 direction(grid.sin_colatitude()[j] * std::cos(phi), grid.sin_colatitude()[j] * std::sin(phi),
+                              grid.cos_colatitude()[j]);
       const Vector3 x = placement.centre + placement.rotation * semi_axes.cwiseProduct(direction);
       positions.row(grid.index(i, j)) = x.transpose().array();
     }
@@ -91,8 +89,7 @@ VectorField sphere(const SphereGrid& grid, const Placement& placement) {
 }
 
 VectorField spheroid(const SphereGrid& grid, double aspect_ratio, const Placement& placement) {
-  check_argument(aspect_ratio > 0 && std::isfinite(aspect_ratio), "aspect_ratio", aspect_ratio,
-                 "finite and > 0");
+  check_argument(aspect_ratio > 0 && std::isfinite(aspect_ratio), "aspect_ratio", aspect_ratio, "finite and > 0");
   return ellipsoid(grid, Vector3(1, 1, aspect_ratio), placement);
 }
 

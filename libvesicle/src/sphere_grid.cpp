@@ -11,8 +11,7 @@ namespace vesiflow::vesicle {
 SphereGrid::SphereGrid(int latitudes) : latitudes_(latitudes) {
   check_argument(latitudes >= 4, "latitudes", latitudes, ">= 4");
   const GaussLegendre rule = gauss_legendre(latitudes);
-  for (ScalarField* field : {&colatitude_, &sin_, &cos_, &weight_, &parameter_measure_})
-    field->resize(latitudes);
+  for (ScalarField* field : {&colatitude_, &sin_, &cos_, &weight_, &parameter_measure_}) field->resize(latitudes);
   const long double spacing = std::numbers::pi_v<long double> / latitudes;
   for (int j = 0; j < latitudes; ++j) {
     // Functions of the unrounded node: the far half of (0, pi) would otherwise lose relative accuracy in the

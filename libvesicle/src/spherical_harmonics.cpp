@@ -53,15 +53,13 @@ class SphericalHarmonics::Implementation {
   const SphereGrid& grid() const { return grid_; }
 
   void analysis(const Input& values, Coefficients& coefficients) {
-    if (degrees_ > grid_.latitudes())
-      throw std::logic_error("analysis needs at least as many latitudes as degrees");
+    if (degrees_ > grid_.latitudes()) throw std::logic_error("analysis needs at least as many latitudes as degrees");
     check_markers(values, "field", grid_.size());
     const int fields = static_cast<int>(values.cols());
     reserve(fields);
     if (analysis_.empty()) analysis_ = analysis_table(degrees_, grid_.latitudes());
     coefficients.resize(degrees_, fields);
-    for (int field = 0; field < fields; ++field)
-      longitude_transform_.forward(values.col(field).data(), field);
+    for (int field = 0; field < fields; ++field) longitude_transform_.forward(values.col(field).data(), field);
     for (int m = 0; m < degrees_; ++m) {
       fold_hemispheres(m, fields);
       for (int parity : {0, 1}) integrate_latitudes(m, parity, coefficients);
@@ -86,8 +84,7 @@ class SphericalHarmonics::Implementation {
                                         panels_[parity].data(), padded_rows(longitude_transform_.pairs()));
       unfold_hemispheres(m, derivative, south_sign, fields);
     }
-    for (int field = 0; field < fields; ++field)
-      longitude_transform_.backward(field, values.col(field).data());
+    for (int field = 0; field < fields; ++field) longitude_transform_.backward(field, values.col(field).data());
   }
 
  private:
@@ -98,8 +95,7 @@ class SphericalHarmonics::Implementation {
     const int half = longitude_transform_.pairs();
     for (int parity : {0, 1}) {
       folded_[parity].resize(std::size_t(half) * fields);
-      panels_[parity].resize(std::size_t(2) * fields *
-                             std::max(padded_rows(half), padded_rows(degrees_ / 2 + 1)));
+      panels_[parity].resize(std::size_t(2) * fields * std::max(padded_rows(half), padded_rows(degrees_ / 2 + 1)));
     }
   }
 
@@ -210,8 +206,8 @@ void SphericalHarmonics::gradient(const Coefficients& coefficients, Output theta
   implementation_->evaluate(coefficients, LegendreKind::value, 1, phi);
 }
 
-void SphericalHarmonics::second_derivatives(const Coefficients& coefficients, Output theta_theta,
-                                            Output theta_phi, Output phi_phi) const {
+void SphericalHarmonics::second_derivatives(const Coefficients& coefficients, Output theta_theta, Output theta_phi,
+                                            Output phi_phi) const {
   implementation_->evaluate(coefficients, LegendreKind::second, 0, theta_theta);
   implementation_->evaluate(coefficients, LegendreKind::first, 1, theta_phi);
   implementation_->evaluate(coefficients, LegendreKind::value, 2, phi_phi);

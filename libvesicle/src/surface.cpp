@@ -23,10 +23,7 @@ void check_finite(const VectorField& positions) {
 /// Fields in flight inside the differential operators.
 struct Surface::Work {
   explicit Work(Eigen::Index size)
-      : values(size, projector_fields),
-        theta(size, projector_fields),
-        phi(size, projector_fields),
-        divergence(size) {}
+      : values(size, projector_fields), theta(size, projector_fields), phi(size, projector_fields), divergence(size) {}
 
   Coefficients coefficients;
   Eigen::ArrayXXd values, theta, phi;
@@ -66,8 +63,7 @@ double Surface::integral(const ScalarField& field) const {
 Vector3 Surface::integral(const VectorField& field) const {
   check_markers(field, "field", grid_.size());
   Vector3 sums;
-  for (int component = 0; component < 3; ++component)
-    sums[component] = (field.col(component) * area_weight_).sum();
+  for (int component = 0; component < 3; ++component) sums[component] = (field.col(component) * area_weight_).sum();
   return sums;
 }
 
@@ -84,8 +80,8 @@ void Surface::gradient(const ScalarField& scalar, VectorField& result) const {
   auto phi = work_->phi.leftCols(1);
   harmonics_.gradient(work_->coefficients, theta, phi);
   for (int component = 0; component < 3; ++component)
-    result.col(component) = theta.col(0) * geometry_.dual_theta().col(component) +
-                            phi.col(0) * geometry_.dual_phi().col(component);
+    result.col(component) =
+        theta.col(0) * geometry_.dual_theta().col(component) + phi.col(0) * geometry_.dual_phi().col(component);
 }
 
 void Surface::divergence(const VectorField& vector, ScalarField& result) const {
@@ -96,8 +92,8 @@ void Surface::divergence(const VectorField& vector, ScalarField& result) const {
   harmonics_.gradient(work_->coefficients, theta, phi);
   const VectorField& a = geometry_.dual_theta();
   const VectorField& b = geometry_.dual_phi();
-  result = theta.col(0) * a.col(0) + theta.col(1) * a.col(1) + theta.col(2) * a.col(2) +
-           phi.col(0) * b.col(0) + phi.col(1) * b.col(1) + phi.col(2) * b.col(2);
+  result = theta.col(0) * a.col(0) + theta.col(1) * a.col(1) + theta.col(2) * a.col(2) + phi.col(0) * b.col(0) +
+           phi.col(1) * b.col(1) + phi.col(2) * b.col(2);
 }
 
 double Surface::max_divergence(const VectorField& vector) const {
@@ -112,8 +108,7 @@ void Surface::projector_divergence(const ScalarField& scalar, VectorField& resul
   const VectorField& n = normal();
   for (int row = 0; row < 3; ++row)
     for (int column = row; column < 3; ++column)
-      work_->values.col(entry[row][column]) =
-          scalar * ((row == column ? 1.0 : 0.0) - n.col(row) * n.col(column));
+      work_->values.col(entry[row][column]) = scalar * ((row == column ? 1.0 : 0.0) - n.col(row) * n.col(column));
   harmonics_.analysis(work_->values, work_->coefficients);
   harmonics_.gradient(work_->coefficients, work_->theta, work_->phi);
   const Eigen::ArrayXXd& theta = work_->theta;

@@ -8,11 +8,9 @@
 namespace vesiflow::vesicle {
 
 SurfaceGeometry::SurfaceGeometry(const SphereGrid& grid) {
-  for (VectorField* field :
-       {&theta_, &phi_, &theta_theta_, &theta_phi_, &phi_phi_, &dual_theta_, &dual_phi_, &normal_})
+  for (VectorField* field : {&theta_, &phi_, &theta_theta_, &theta_phi_, &phi_phi_, &dual_theta_, &dual_phi_, &normal_})
     field->resize(grid.size(), 3);
-  for (ScalarField* field : {&area_element_, &mean_curvature_, &gaussian_curvature_})
-    field->resize(grid.size());
+  for (ScalarField* field : {&area_element_, &mean_curvature_, &gaussian_curvature_}) field->resize(grid.size());
 }
 
 void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coefficients& positions) {

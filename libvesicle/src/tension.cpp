@@ -10,8 +10,7 @@ TensionForce::TensionForce(double sigma0) : sigma0_(sigma0) {
   check_argument(std::isfinite(sigma0) && sigma0 >= 0, "sigma0", sigma0, "finite and >= 0");
 }
 
-void TensionForce::evaluate(const Surface& surface, const ScalarField& target_areas,
-                            ScalarField& tension) const {
+void TensionForce::evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const {
   check_markers(target_areas, "target_areas", surface.grid().size());
   const ScalarField& areas = surface.area_weight();
   tension = sigma0_ * (target_areas / areas) * (areas / target_areas).log();

@@ -21,7 +21,9 @@ double error_of(const char* name, int steps) {
   return std::hypot(state[0] - std::cos(1.0), state[1] - std::sin(1.0));
 }
 
-double order_of(const char* name) { return std::log2(error_of(name, 200) / error_of(name, 400)); }
+double order_of(const char* name) {
+  return std::log2(error_of(name, 200) / error_of(name, 400));
+}
 
 TEST(MarkerIntegrator, ConvergesWithItsOrder) {
   EXPECT_NEAR(order_of("euler"), 1.0, 0.05);

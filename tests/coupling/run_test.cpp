@@ -88,8 +88,12 @@ void compare_restart(const fs::path& folder, const Overrides& overrides, int thr
   omp_set_num_threads(before);
 }
 
-TEST_F(RunTest, RestartContinuesBitForBitWithOneThread) { compare_restart(folder_, {}, 1); }
-TEST_F(RunTest, RestartContinuesBitForBitWithTwoThreads) { compare_restart(folder_, {}, 2); }
+TEST_F(RunTest, RestartContinuesBitForBitWithOneThread) {
+  compare_restart(folder_, {}, 1);
+}
+TEST_F(RunTest, RestartContinuesBitForBitWithTwoThreads) {
+  compare_restart(folder_, {}, 2);
+}
 TEST_F(RunTest, RestartContinuesBitForBitWithMarkerHistory) {
   compare_restart(folder_, {"time.markers=ab2", "membrane.g=2"}, 2);
 }

@@ -13,7 +13,9 @@ namespace {
 
 const std::string sphere = "[[vesicles]]\nshape = \"sphere\"\n";
 
-Scene parse(const std::string& text, const Overrides& overrides = {}) { return parse_scene(text, "test.toml", overrides); }
+Scene parse(const std::string& text, const Overrides& overrides = {}) {
+  return parse_scene(text, "test.toml", overrides);
+}
 
 std::string message_of(const std::string& text, const Overrides& overrides = {}) {
   try {
@@ -25,7 +27,8 @@ std::string message_of(const std::string& text, const Overrides& overrides = {})
 }
 
 void expect_parts(const std::string& message, std::initializer_list<const char*> parts) {
-  for (const char* part : parts) EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
+  for (const char* part : parts)
+    EXPECT_NE(message.find(part), std::string::npos) << "no '" << part << "' in: " << message;
 }
 
 TEST(Scene, ReadsKeysFractionsAndOverrides) {
@@ -65,7 +68,8 @@ TEST(Scene, WritesItselfAndReadsBackTheSame) {
 TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of("[fluid]\nreynolds_number = -1\n" + sphere),
                {"test.toml:2", "fluid.reynolds_number = -1", "> 0"});
-  expect_parts(message_of("[fluid]\nviscosity_ratio = -2.0\n" + sphere), {"test.toml:2", "fluid.viscosity_ratio", "> 0"});
+  expect_parts(message_of("[fluid]\nviscosity_ratio = -2.0\n" + sphere),
+               {"test.toml:2", "fluid.viscosity_ratio", "> 0"});
   expect_parts(message_of("[domain]\ncells = \"many\"\n" + sphere), {"test.toml:2", "domain.cells", "many", "whole"});
   expect_parts(message_of("[domain]\nlower = [0, 0]\n" + sphere), {"domain.lower", "three numbers"});
   expect_parts(message_of("[time]\nstep = nan\n" + sphere), {"test.toml:2", "time.step", "> 0"});
@@ -92,7 +96,8 @@ TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
   expect_parts(message_of(sphere, {"vesicles.0.centre=[5.5, 0, 0]"}), {"vesicles.0.centre", "along x", "walls"});
   expect_parts(message_of(sphere, {"domain.upper=[-7, 6, 6]"}), {"domain.upper[0]", "above domain.lower[0]"});
   expect_parts(message_of("[[vesicles]]\nshape = \"prolate\"\n"), {"vesicles.0", "reduced_volume or aspect_ratio"});
-  expect_parts(message_of("[[vesicles]]\nshape = \"sphere\"\naspect_ratio = 2\n"), {"vesicles.0", "prolate and oblate"});
+  expect_parts(message_of("[[vesicles]]\nshape = \"sphere\"\naspect_ratio = 2\n"),
+               {"vesicles.0", "prolate and oblate"});
   expect_parts(message_of(sphere + sphere), {"vesicles.0 and vesicles.1 overlap"});
   expect_parts(message_of("title = \"empty\"\n"), {"vesicles"});
   expect_parts(message_of(sphere, {"fluid.viscosity_ratio=5"}), {"fluid.viscosity_ratio = 5", "allowed is 1"});

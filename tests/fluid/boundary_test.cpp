@@ -37,8 +37,7 @@ double ghost_error(int component, const Field<Centring>& field) {
   for (int k = -1; k <= field.extent(2); ++k) {
     for (int j = -1; j <= field.extent(1); ++j) {
       for (int i = -1; i <= field.extent(0); ++i) {
-        error =
-            std::max(error, std::abs(field(i, j, k) - linear_flow(field.position(i, j, k), 0.0)[component]));
+        error = std::max(error, std::abs(field(i, j, k) - linear_flow(field.position(i, j, k), 0.0)[component]));
       }
     }
   }
@@ -70,8 +69,7 @@ TEST(WallVelocity, DiffusionFromTheWallsCompletesTheHomogeneousLaplacian) {
   for (int component = 0; component < 3; ++component) {
     const auto centring = static_cast<Centring>(component + 1);
     const View view = sum.unknowns()[component];
-    apply(EllipticProblem(grid, centring, BoundaryCondition::dirichlet, 0.0, mu), u.unknowns()[component],
-          view);
+    apply(EllipticProblem(grid, centring, BoundaryCondition::dirichlet, 0.0, mu), u.unknowns()[component], view);
     test::for_each_point(view.extent, [&](int i, int j, int k) { view(i, j, k) *= -1.0; });
   }
   walls.add_diffusion(mu, sum);

@@ -22,16 +22,12 @@ struct Case {
   double alpha;
 };
 
-const Case cases[] = {{Centring::cell, BoundaryCondition::neumann, 0.0},
-                      {Centring::cell, BoundaryCondition::neumann, 2.5},
-                      {Centring::cell, BoundaryCondition::dirichlet, 0.0},
-                      {Centring::cell, BoundaryCondition::dirichlet, 40.0},
-                      {Centring::face_x, BoundaryCondition::dirichlet, 0.0},
-                      {Centring::face_x, BoundaryCondition::dirichlet, 7.0},
-                      {Centring::face_y, BoundaryCondition::dirichlet, 0.0},
-                      {Centring::face_y, BoundaryCondition::dirichlet, 7.0},
-                      {Centring::face_z, BoundaryCondition::dirichlet, 0.0},
-                      {Centring::face_z, BoundaryCondition::dirichlet, 7.0}};
+const Case cases[] = {
+    {Centring::cell, BoundaryCondition::neumann, 0.0},     {Centring::cell, BoundaryCondition::neumann, 2.5},
+    {Centring::cell, BoundaryCondition::dirichlet, 0.0},   {Centring::cell, BoundaryCondition::dirichlet, 40.0},
+    {Centring::face_x, BoundaryCondition::dirichlet, 0.0}, {Centring::face_x, BoundaryCondition::dirichlet, 7.0},
+    {Centring::face_y, BoundaryCondition::dirichlet, 0.0}, {Centring::face_y, BoundaryCondition::dirichlet, 7.0},
+    {Centring::face_z, BoundaryCondition::dirichlet, 0.0}, {Centring::face_z, BoundaryCondition::dirichlet, 7.0}};
 
 // Powers of two, odd, prime and unequal, with unequal mesh widths.
 const Grid grids[] = {Grid({0, 0, 0}, {1, 1, 1}, {16, 16, 16}), Grid({-1, 0, 0}, {1, 3, 1}, {15, 9, 21}),
@@ -119,10 +115,8 @@ TEST_P(EllipticConformance, RefusesWrongShapesAndNonFiniteData) {
   --small.extent[1];
   EXPECT_THAT([&] { solver->solve(small, rhs.view); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("the right-hand side is")));
-  EXPECT_THAT([&] { solver->solve(rhs.view, small); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("the solution")));
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  EXPECT_THAT([&] { solver->solve(rhs.view, small); }, ThrowsMessage<std::invalid_argument>(HasSubstr("the solution")));
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     const Padded broken(problem(), 1.0);
     broken.view(2, 3, 1) = bad;
     EXPECT_THAT([&] { solver->solve(broken.view, broken.view); },
@@ -139,8 +133,7 @@ TEST_P(SingularProblem, LosesTheMeansOfBothSides) {
   const Padded rhs(problem);
   const Padded shifted(problem);
   test::fill_random(rhs.view, 13);
-  test::for_each_point(rhs.view.extent,
-                       [&](int i, int j, int k) { shifted.view(i, j, k) = rhs.view(i, j, k) + 3.0; });
+  test::for_each_point(rhs.view.extent, [&](int i, int j, int k) { shifted.view(i, j, k) = rhs.view(i, j, k) + 3.0; });
   const double mean = solver->solve(rhs.view, rhs.view).removed_mean;
   EXPECT_NEAR(solver->solve(shifted.view, shifted.view).removed_mean, mean + 3.0, 1e-13);
   EXPECT_LT(test::max_difference(rhs.view, shifted.view), 1e-12);
@@ -173,8 +166,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, EllipticConformance,
                          parameter_name);
 
 INSTANTIATE_TEST_SUITE_P(Backends, SingularProblem,
-                         testing::Combine(testing::ValuesIn(backends), testing::ValuesIn(grids)),
-                         parameter_name);
+                         testing::Combine(testing::ValuesIn(backends), testing::ValuesIn(grids)), parameter_name);
 
 }  // namespace
 }  // namespace vesiflow::fluid

@@ -38,8 +38,7 @@ TEST(EllipticProblem, CosinesAreDiscreteEigenvectorsOfTheNeumannOperator) {
   Field<Cell> y(grid);
   double eigenvalue = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double root =
-        2.0 * std::sin(0.5 * std::numbers::pi * mode[axis] / grid.cells[axis]) / grid.spacing(axis);
+    const double root = 2.0 * std::sin(0.5 * std::numbers::pi * mode[axis] / grid.cells[axis]) / grid.spacing(axis);
     eigenvalue += root * root;
   }
   test::for_each_point(x.extent(), [&](int i, int j, int k) {
@@ -100,8 +99,7 @@ TEST(CholmodSolver, AgreesWithTheFastTransforms) {
     Field<Cell> x(grid);
     Field<Cell> y(grid);
     const SolveReport fft = make_elliptic_solver(problem, FftOptions{})->solve(rhs.points(), x.points());
-    const SolveReport cholmod =
-        make_elliptic_solver(problem, CholmodOptions{})->solve(rhs.points(), y.points());
+    const SolveReport cholmod = make_elliptic_solver(problem, CholmodOptions{})->solve(rhs.points(), y.points());
     EXPECT_LT(test::max_difference(x.points(), y.points()), 1e-14);
     EXPECT_NEAR(fft.removed_mean, cholmod.removed_mean, 1e-15);
   }

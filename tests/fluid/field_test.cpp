@@ -13,10 +13,8 @@ namespace {
 
 const Grid grid({0.0, -1.0, 0.0}, {1.0, 1.0, 3.0}, {5, 4, 6});
 
-static_assert(!std::is_copy_constructible_v<Field<Cell>> &&
-              std::is_nothrow_move_constructible_v<Field<Cell>>);
-static_assert(!std::is_assignable_v<Field<FaceX>&, Field<FaceY>> &&
-              !std::is_convertible_v<Field<FaceX>, Field<Cell>>);
+static_assert(!std::is_copy_constructible_v<Field<Cell>> && std::is_nothrow_move_constructible_v<Field<Cell>>);
+static_assert(!std::is_assignable_v<Field<FaceX>&, Field<FaceY>> && !std::is_convertible_v<Field<FaceX>, Field<Cell>>);
 static_assert(!std::is_invocable_v<decltype(divergence), const FaceVector&, Field<FaceX>&>);
 static_assert(std::is_convertible_v<View, ConstView> && !std::is_convertible_v<ConstView, View>);
 

@@ -25,8 +25,7 @@ struct EthierSteinman {
     const double a = pi / 4;
     const double d = pi / 2;
     const auto part = [&](double p, double q, double s) {
-      return -a * (std::exp(a * p) * std::sin(a * q + d * s) + std::exp(a * s) * std::cos(a * p + d * q)) *
-             decay(t);
+      return -a * (std::exp(a * p) * std::sin(a * q + d * s) + std::exp(a * s) * std::cos(a * p + d * q)) * decay(t);
     };
     const auto [x, y, z] = r;
     return {part(x, y, z), part(y, z, x), part(z, x, y)};
@@ -36,12 +35,10 @@ struct EthierSteinman {
     const double a = pi / 4;
     const double d = pi / 2;
     const auto part = [&](double p, double q, double s) {
-      return std::exp(2 * a * p) +
-             2 * std::sin(a * p + d * q) * std::cos(a * s + d * p) * std::exp(a * (q + s));
+      return std::exp(2 * a * p) + 2 * std::sin(a * p + d * q) * std::cos(a * s + d * p) * std::exp(a * (q + s));
     };
     const auto [x, y, z] = r;
-    return -0.5 * reynolds_number * a * a * decay(t) * decay(t) *
-           (part(x, y, z) + part(y, z, x) + part(z, x, y));
+    return -0.5 * reynolds_number * a * a * decay(t) * decay(t) * (part(x, y, z) + part(y, z, x) + part(z, x, y));
   }
 };
 
@@ -110,8 +107,7 @@ Errors run(int cells, double reynolds_number) {
   NavierStokes fluid(
       grid, parameters, [&](const Vector3& r, double t) { return flow.velocity(r, t); }, false);
   const double dt = 0.0025;
-  fluid.restore(sample(flow, grid, 0.0), sample(flow, grid, -dt), sample_pressure(flow, grid, 0.0),
-                {0.0, -dt, dt, 1});
+  fluid.restore(sample(flow, grid, 0.0), sample(flow, grid, -dt), sample_pressure(flow, grid, 0.0), {0.0, -dt, dt, 1});
   for (int k = 0; k < 60; ++k) fluid.step(dt);
   return errors(fluid, flow);
 }

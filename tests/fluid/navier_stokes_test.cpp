@@ -18,8 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const std::array<Grid, 3> grids{Grid({-1, -1, -1}, {1, 1, 1}, {16, 16, 16}),
-                                Grid({0, -1, 0}, {1, 2, 5}, {7, 11, 13}),
+const std::array<Grid, 3> grids{Grid({-1, -1, -1}, {1, 1, 1}, {16, 16, 16}), Grid({0, -1, 0}, {1, 2, 5}, {7, 11, 13}),
                                 Grid({-3, 0, 0}, {1, 1, 1}, {23, 9, 4})};
 
 Vector3 no_slip(const Vector3&, double) {
@@ -129,8 +128,7 @@ TEST(NavierStokes, StokesFlowIsLinearInTheForce) {
   const auto u = one.velocity().unknowns();
   const auto v = two.velocity().unknowns();
   for (int c = 0; c < 3; ++c) {
-    test::for_each_point(u[c].extent,
-                         [&](int i, int j, int k) { EXPECT_EQ(2.0 * u[c](i, j, k), v[c](i, j, k)); });
+    test::for_each_point(u[c].extent, [&](int i, int j, int k) { EXPECT_EQ(2.0 * u[c](i, j, k), v[c](i, j, k)); });
   }
 }
 
@@ -214,16 +212,14 @@ TEST(NavierStokes, RefusesParametersOutOfRangeByName) {
   EXPECT_THAT([&] { NavierStokes(grids[0], parameters, no_slip); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("viscosity is 0")));
   NavierStokes fluid(grids[0], {}, no_slip);
-  EXPECT_THAT([&] { fluid.step(-0.1); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("time step is -0.1")));
+  EXPECT_THAT([&] { fluid.step(-0.1); }, ThrowsMessage<std::invalid_argument>(HasSubstr("time step is -0.1")));
 }
 
 TEST(NavierStokes, RefusesAStateThatDoesNotFit) {
   NavierStokes fluid(grids[0], {}, no_slip);
   const NavierStokes other(grids[1], {}, no_slip);
-  EXPECT_THAT(
-      [&] { fluid.restore(other.velocity(), other.previous_velocity(), other.pressure(), other.clock()); },
-      ThrowsMessage<std::invalid_argument>(HasSubstr("another grid")));
+  EXPECT_THAT([&] { fluid.restore(other.velocity(), other.previous_velocity(), other.pressure(), other.clock()); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("another grid")));
   const NavierStokes same(grids[0], {}, no_slip);
   EXPECT_THAT(
       [&] {

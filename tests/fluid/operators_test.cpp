@@ -8,8 +8,7 @@
 namespace vesiflow::fluid {
 namespace {
 
-const std::array<Grid, 3> grids{Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}),
-                                Grid({0, -1, 0}, {1, 2, 5}, {7, 5, 11}),
+const std::array<Grid, 3> grids{Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), Grid({0, -1, 0}, {1, 2, 5}, {7, 5, 11}),
                                 Grid({-3, 0, 0}, {1, 1, 1}, {4, 13, 6})};
 
 TEST(Operators, DivergenceIsMinusTheAdjointOfTheGradient) {

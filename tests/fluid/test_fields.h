@@ -51,8 +51,8 @@ inline double max_abs(ConstView a) {
 
 inline double max_difference(ConstView a, ConstView b) {
   double largest = 0.0;
-  for_each_point(
-      a.extent, [&](int i, int j, int k) { largest = std::max(largest, std::abs(a(i, j, k) - b(i, j, k))); });
+  for_each_point(a.extent,
+                 [&](int i, int j, int k) { largest = std::max(largest, std::abs(a(i, j, k) - b(i, j, k))); });
   return largest;
 }
 

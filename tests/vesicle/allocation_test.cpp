@@ -27,8 +27,7 @@ TEST(Allocation, AWarmedUpStepAllocatesNothing) {
   for (const FilterOrder filter : {FilterOrder::velocity_first, FilterOrder::components})
     for (const LaplacianForm laplacian : {LaplacianForm::cartesian, LaplacianForm::paper}) {
       constexpr int latitudes = 16;
-      Membrane membrane(prolate(SphereGrid(latitudes), 0.9), latitudes,
-                        {.laplacian = laplacian, .filter = filter});
+      Membrane membrane(prolate(SphereGrid(latitudes), 0.9), latitudes, {.laplacian = laplacian, .filter = filter});
       const VectorField velocity = membrane.positions();
       VectorField filtered, positions;
       const auto step = [&] {

@@ -105,8 +105,7 @@ TEST(CurvatureLaplacian, RefusesAnotherMesh) {
   Surface surface(8);
   surface.update(sphere(surface.grid()));
   ScalarField laplacian;
-  EXPECT_THROW(CurvatureLaplacian(9, LaplacianForm::cartesian).evaluate(surface, laplacian),
-               std::invalid_argument);
+  EXPECT_THROW(CurvatureLaplacian(9, LaplacianForm::cartesian).evaluate(surface, laplacian), std::invalid_argument);
 }
 
 }  // namespace

@@ -31,8 +31,7 @@ TEST(Diagnostics, MomentsOfAPlacedEllipsoid) {
   EXPECT_LT((moments.centroid - centre).norm(), 1e-12);
   EXPECT_LT((moments.semi_axes - Vector3(4, 2, 1)).norm(), 1e-11);
   EXPECT_NEAR(std::abs(moments.directions.col(0).dot(rotation.col(2))), 1, 1e-13);
-  const Eigen::Matrix3d exact =
-      moments.volume / 5 * rotation * Vector3(1, 4, 16).asDiagonal() * rotation.transpose();
+  const Eigen::Matrix3d exact = moments.volume / 5 * rotation * Vector3(1, 4, 16).asDiagonal() * rotation.transpose();
   EXPECT_LT((moments.second_moments - exact).norm(), 1e-10);
 }
 
@@ -47,8 +46,8 @@ TEST(Diagnostics, InclinationOfARotatedProlate) {
 TEST(Diagnostics, InclinationIsUndefinedWithoutALongestAxisInThePlane) {
   Surface surface(latitudes);
   const Eigen::Matrix3d along_y = Eigen::AngleAxisd(pi / 2, Vector3::UnitX()).toRotationMatrix();
-  for (const VectorField& x : {sphere(surface.grid()), oblate(surface.grid(), 0.9),
-                               prolate(surface.grid(), 0.9, {.rotation = along_y})}) {
+  for (const VectorField& x :
+       {sphere(surface.grid()), oblate(surface.grid(), 0.9), prolate(surface.grid(), 0.9, {.rotation = along_y})}) {
     surface.update(x);
     EXPECT_TRUE(std::isnan(inclination_angle(volume_moments(surface))));
   }
@@ -68,8 +67,7 @@ TEST(Diagnostics, SpectrumTailOfSmoothAndRoughShapes) {
   Surface surface(latitudes);
   surface.update(ellipsoid(surface.grid(), {1, 2, 4}));
   EXPECT_LT(spectrum_tail(surface), 1e-28);
-  const VectorField rough =
-      surface.positions() + 1e-3 * testing::smooth_vector(surface.grid(), latitudes, 81);
+  const VectorField rough = surface.positions() + 1e-3 * testing::smooth_vector(surface.grid(), latitudes, 81);
   surface.update(rough);
   EXPECT_GT(spectrum_tail(surface), 1e-9);
 }

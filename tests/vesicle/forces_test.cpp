@@ -25,8 +25,7 @@ VectorField test_shape(const SphereGrid& grid) {
 
 class Forces : public ::testing::Test {
  protected:
-  Forces()
-      : surface(latitudes), shape(test_shape(surface.grid())), force(VectorField::Zero(shape.rows(), 3)) {
+  Forces() : surface(latitudes), shape(test_shape(surface.grid())), force(VectorField::Zero(shape.rows(), 3)) {
     surface.update(shape);
   }
 
@@ -79,8 +78,7 @@ TEST(Bending, EnergyOfASphereIsTwoPi) {
 
 TEST_F(Forces, TensionIsMinusTheGradientOfItsEnergy) {
   const TensionForce tension(600);
-  const ScalarField target =
-      surface.area_weight() * (0.1 * testing::smooth_scalar(surface.grid(), 4, 41)).exp();
+  const ScalarField target = surface.area_weight() * (0.1 * testing::smooth_scalar(surface.grid(), 4, 41)).exp();
   ScalarField sigma;
   tension.evaluate(surface, target, sigma);
   TensionForce(600).add_to(surface, sigma, force);

@@ -49,8 +49,7 @@ TEST(Shapes, ArePlaced) {
   const Vector3 centre(5, -3, 1);
   const VectorField plain = ellipsoid(grid, {1, 2, 3});
   const VectorField placed = ellipsoid(grid, {2, 4, 6}, {1, rotation, centre});
-  const VectorField expected =
-      ((rotation * plain.matrix().transpose()).colwise() + centre).transpose().array();
+  const VectorField expected = ((rotation * plain.matrix().transpose()).colwise() + centre).transpose().array();
   EXPECT_LT((placed - expected).abs().maxCoeff(), 1e-14);
 }
 

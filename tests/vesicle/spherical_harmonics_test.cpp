@@ -58,8 +58,7 @@ TEST(SphericalHarmonics, FoldedOrdersArePointValues) {
       SphericalHarmonics(degrees, grid).synthesis(c, values);
       for (int j = 0; j < latitudes; ++j)
         for (int i = 0; i < grid.longitudes(); ++i)
-          EXPECT_NEAR(values[grid.index(i, j)], point_value(c, grid.colatitude()[j], grid.longitude(i)),
-                      1e-11);
+          EXPECT_NEAR(values[grid.index(i, j)], point_value(c, grid.colatitude()[j], grid.longitude(i)), 1e-11);
     }
 }
 
@@ -85,8 +84,7 @@ TEST(SphericalHarmonics, DerivativesOfKnownHarmonics) {
           const double value = std::sph_legendre(unsigned(n), unsigned(m), theta);
           const double below = n > m ? std::sph_legendre(unsigned(n - 1), unsigned(m), theta) : 0;
           const double first =
-              n * cot * value -
-              (n > m ? std::sqrt((2 * n + 1.0) / (2 * n - 1) * (n * n - m * m)) * below / s : 0);
+              n * cot * value - (n > m ? std::sqrt((2 * n + 1.0) / (2 * n - 1) * (n * n - m * m)) * below / s : 0);
           const double second = -cot * first + (m * m / (s * s) - n * (n + 1)) * value;
           for (int i : {0, 1, 7}) {
             const double phi = grid.longitude(i);
@@ -120,12 +118,10 @@ TEST(SphericalHarmonics, AnalysisIsTheAdjointOfSynthesis) {
       double nodes = 0;
       for (int j = 0; j < latitudes; ++j)
         for (int i = 0; i < grid.longitudes(); ++i)
-          nodes += grid.weight()[j] * grid.longitude_spacing() * f[grid.index(i, j)] *
-                   synthesised[grid.index(i, j)];
+          nodes += grid.weight()[j] * grid.longitude_spacing() * f[grid.index(i, j)] * synthesised[grid.index(i, j)];
       double modes = 0;
       for (int n = 0; n < degrees; ++n)
-        for (int m = 0; m <= n; ++m)
-          modes += (m == 0 ? 1 : 2) * std::real(analysed(0, n, m) * std::conj(c(0, n, m)));
+        for (int m = 0; m <= n; ++m) modes += (m == 0 ? 1 : 2) * std::real(analysed(0, n, m) * std::conj(c(0, n, m)));
       EXPECT_NEAR(nodes, modes, 1e-13);
     }
 }

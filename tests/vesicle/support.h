@@ -18,8 +18,7 @@ inline Coefficients random_coefficients(int degrees, int fields, unsigned seed) 
   Coefficients coefficients(degrees, fields);
   for (int field = 0; field < fields; ++field)
     for (int n = 0; n < degrees; ++n)
-      for (int m = 0; m <= n; ++m)
-        coefficients(field, n, m) = {uniform(generator), m > 0 ? uniform(generator) : 0};
+      for (int m = 0; m <= n; ++m) coefficients(field, n, m) = {uniform(generator), m > 0 ? uniform(generator) : 0};
   return coefficients;
 }
 
@@ -102,8 +101,7 @@ inline double point_value(const Coefficients& coefficients, double theta, double
 
 /// dE/ds at s = 0 of E(x + s direction) by fourth-order central differences.
 template <class Energy>
-double directional_derivative(const Energy& energy, const VectorField& x, const VectorField& direction,
-                              double step) {
+double directional_derivative(const Energy& energy, const VectorField& x, const VectorField& direction, double step) {
   const auto slope = [&](double s) { return energy(x + s * direction) - energy(x - s * direction); };
   return (8 * slope(step) - slope(2 * step)) / (12 * step);
 }

@@ -95,8 +95,7 @@ TEST(Surface, GaussBonnetAndClosedness) {
   EXPECT_NEAR(surface.integral(surface.gaussian_curvature()), 4 * pi, 1e-7);
   EXPECT_LT(surface.integral(surface.normal()).norm(), 1e-12);
   // int 2 H n dA = 0 and int H X.n dA = A.
-  EXPECT_LT(surface.integral(VectorField(surface.normal().colwise() * surface.mean_curvature())).norm(),
-            1e-9);
+  EXPECT_LT(surface.integral(VectorField(surface.normal().colwise() * surface.mean_curvature())).norm(), 1e-9);
   const VectorField pressed = surface.normal().colwise() * surface.mean_curvature();
   EXPECT_NEAR(testing::work(surface, pressed, x), surface.area(), 1e-9);
 }

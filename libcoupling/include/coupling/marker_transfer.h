@@ -25,8 +25,7 @@ class MarkerTransfer {
   void update(const vesicle::VectorField& positions);
 
   /// Adds the force density of `force` (per membrane area, markers x 3) times `area_weight` (dA per marker).
-  void spread(const vesicle::VectorField& force, const vesicle::ScalarField& area_weight,
-              fluid::FaceVector& density);
+  void spread(const vesicle::VectorField& force, const vesicle::ScalarField& area_weight, fluid::FaceVector& density);
 
   /// Velocity at the markers (markers x 3).
   void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
@@ -40,8 +39,8 @@ class MarkerTransfer {
  private:
   // Points of one axis: 0 on faces (multiples of h), 1 at cell centres.
   struct Stencil {
-    std::array<std::array<std::int32_t, 2>, 3> first;                   // [axis][faces, centres]
-    std::array<std::array<std::array<double, 4>, 2>, 3> weights;        // [axis][faces, centres][point]
+    std::array<std::array<std::int32_t, 2>, 3> first;             // [axis][faces, centres]
+    std::array<std::array<std::array<double, 4>, 2>, 3> weights;  // [axis][faces, centres][point]
   };
   struct Box {
     std::array<std::int32_t, 3> first{0, 0, 0}, last{-1, -1, -1};

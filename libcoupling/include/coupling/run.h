@@ -10,11 +10,11 @@ namespace vesiflow::coupling {
 
 /// Where and how a simulation is run to its end.
 struct RunOptions {
-  std::string program = "vesiflow";                  ///< written into summary.json
-  std::string scene_file;                            ///< written into summary.json
-  std::filesystem::path directory = "out";           ///< of the results, docs/results.md
-  std::optional<std::filesystem::path> checkpoint;   ///< continue from it
-  bool quiet = false;                                ///< no progress
+  std::string program = "vesiflow";                 ///< written into summary.json
+  std::string scene_file;                           ///< written into summary.json
+  std::filesystem::path directory = "out";          ///< of the results, docs/results.md
+  std::optional<std::filesystem::path> checkpoint;  ///< continue from it
+  bool quiet = false;                               ///< no progress
 };
 
 enum class RunStatus { completed, interrupted };

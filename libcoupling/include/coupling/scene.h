@@ -20,13 +20,13 @@ enum class Shape { sphere, prolate, oblate, ellipsoid };
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
 struct VesicleScene {
   Shape shape = Shape::prolate;
-  std::optional<double> reduced_volume;         ///< of a prolate or oblate, in (0.3, 1]
-  std::optional<double> aspect_ratio;           ///< of a prolate or oblate: long over short axis, >= 1
-  std::optional<std::array<double, 3>> axes;    ///< of an ellipsoid: ratios of its axes along x, y, z
-  double radius = 1.0;                          ///< effective radius (3V/4 pi)^(1/3)
+  std::optional<double> reduced_volume;       ///< of a prolate or oblate, in (0.3, 1]
+  std::optional<double> aspect_ratio;         ///< of a prolate or oblate: long over short axis, >= 1
+  std::optional<std::array<double, 3>> axes;  ///< of an ellipsoid: ratios of its axes along x, y, z
+  double radius = 1.0;                        ///< effective radius (3V/4 pi)^(1/3)
   std::array<double, 3> centre{0.0, 0.0, 0.0};
   std::array<double, 3> rotation_axis{0.0, 1.0, 0.0};
-  double rotation_deg = 0.0;                    ///< turns the shape, whose symmetry axis is z, about rotation_axis
+  double rotation_deg = 0.0;  ///< turns the shape, whose symmetry axis is z, about rotation_axis
 };
 
 /// Everything a scene file can say, with its defaults. docs/scene.md documents each key; names there and here are
@@ -43,7 +43,7 @@ struct Scene {
   } domain;
   struct Flow {
     FlowType type = FlowType::shear;
-    double rate = 1.0;                          ///< shear rate: u = (rate z, 0, 0)
+    double rate = 1.0;  ///< shear rate: u = (rate z, 0, 0)
     FlowStart start = FlowStart::flow;
   } flow;
   struct Fluid {
@@ -54,16 +54,16 @@ struct Scene {
   struct Membrane {
     double capillary_number = 2.5;
     double sigma0 = 600.0;
-    std::optional<double> g;                    ///< dt sigma0/(4 mu h): another way to give sigma0
+    std::optional<double> g;  ///< dt sigma0/(4 mu h): another way to give sigma0
     vesicle::VolumeControl volume = vesicle::VolumeControl::projection;
-    double volume_stiffness = 1e5;              ///< c_v of Eq. (22), for volume = penalty
+    double volume_stiffness = 1e5;  ///< c_v of Eq. (22), for volume = penalty
     vesicle::LaplacianForm laplacian = vesicle::LaplacianForm::cartesian;
   } membrane;
   struct Mesh {
     int latitudes = 32;
     vesicle::FilterOrder filter = vesicle::FilterOrder::velocity_first;
-    int normal_degrees = 0;                     ///< degrees kept in the velocity that shapes; 0: two thirds
-    int tangential_degrees = 15;                ///< degrees kept in the velocity along the membrane
+    int normal_degrees = 0;       ///< degrees kept in the velocity that shapes; 0: two thirds
+    int tangential_degrees = 15;  ///< degrees kept in the velocity along the membrane
   } mesh;
   struct Time {
     double step = 1.0 / 192.0;
@@ -71,9 +71,9 @@ struct Scene {
     std::string markers = "euler";
   } time;
   struct Limits {
-    double local_area_error = 0.5;              ///< the run stops beyond it
+    double local_area_error = 0.5;  ///< the run stops beyond it
   } limits;
-  struct Output {                               ///< intervals in time; 0 is never
+  struct Output {  ///< intervals in time; 0 is never
     double diagnostics_every = 0.05;
     double vesicle_every = 0.5;
     double fluid_every = 4.0;

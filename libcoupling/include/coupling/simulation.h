@@ -21,7 +21,7 @@ struct PhaseSeconds {
   double fluid_momentum = 0.0;    ///< three velocity solves
   double fluid_projection = 0.0;  ///< pressure solve and correction
   double interpolate = 0.0;
-  double mesh = 0.0;              ///< velocity filter, move, target areas
+  double mesh = 0.0;  ///< velocity filter, move, target areas
   double diagnostics = 0.0;
 };
 

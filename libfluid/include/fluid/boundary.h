@@ -55,13 +55,9 @@ class WallVelocity {
     std::array<int, 2> extent;  // points along the two other axes, in increasing order
     std::vector<double> values;
     double& at(int a, int b) { return values[static_cast<std::size_t>((b + 1) * (extent[0] + 2) + a + 1)]; }
-    double at(int a, int b) const {
-      return values[static_cast<std::size_t>((b + 1) * (extent[0] + 2) + a + 1)];
-    }
+    double at(int a, int b) const { return values[static_cast<std::size_t>((b + 1) * (extent[0] + 2) + a + 1)]; }
   };
-  const Plane& plane(int component, int axis, int side) const {
-    return planes_[component * 6 + axis * 2 + side];
-  }
+  const Plane& plane(int component, int axis, int side) const { return planes_[component * 6 + axis * 2 + side]; }
   void sample(Plane& plane) const;
   void balance_flux();
 

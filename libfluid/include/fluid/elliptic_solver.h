@@ -16,8 +16,8 @@ struct SolveReport {
   int iterations = 0;              // zero for direct solvers
   bool converged = true;           // direct solvers always are
   std::optional<double> residual;  // relative, if the solver computes it; see also relative_residual()
-  double removed_mean = 0.0;  // what was subtracted from b to make it compatible (problems with a nullspace)
-  double seconds = 0.0;       // wall time of this solve
+  double removed_mean = 0.0;       // what was subtracted from b to make it compatible (problems with a nullspace)
+  double seconds = 0.0;            // wall time of this solve
 };
 
 // One problem at a time: update() takes it, solve() solves it for as many right-hand sides as wanted.
@@ -65,8 +65,7 @@ using SolverOptions = std::variant<FftOptions, CholmodOptions>;
 
 // A solver updated to the problem. Throws std::invalid_argument, naming the alternatives, for what the build
 // or the backend cannot do.
-std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem,
-                                                     const SolverOptions& options);
+std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem, const SolverOptions& options);
 
 // Bytes a solver will take for a problem with the present omp_get_max_threads(): the work arrays of "fft"
 // (FFTW's own tables are small), an empirical rule for "cholmod". Nothing is allocated.

@@ -17,8 +17,8 @@ using Vector3 = std::array<double, 3>;
 struct Grid {
   static constexpr int min_cells = 4;
 
-  // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and cells >=
-  // min_cells.
+  // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and
+  // cells >= min_cells.
   Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells);
 
   Vector3 lower;

@@ -39,15 +39,12 @@ struct FluidTimings {
 
 // Solves   Re [du/dt + (u.grad)u] = -grad p + mu Lap u + f,   div u = 0,   u given on the walls.
 //
-// One step (paper, Section 3.3, Step 3; Guermond, Minev & Shen 2006, doi:10.1016/j.cma.2005.10.010), equal
-// steps:
-//   Re [(3u* - 4u^k + u^{k-1}) / (2dt) + 2N(u^k) - N(u^{k-1})] = -grad p^k + mu Lap u* + f,   u* = u^{k+1} on
-//   the walls Lap phi = a div u*,  u^{k+1} = u* - grad phi / a,  p^{k+1} = p^k + phi - mu div u*,        a =
-//   3Re / (2dt)
-// with N of operators.h. The step may change: the coefficients are those of variable-step BDF2 (stable while
-// it grows by less than a factor 1 + sqrt 2 at a time), with r = dt / previous dt
-//   (1+2r)/(1+r) u* - (1+r) u^k + r^2/(1+r) u^{k-1} over dt,   (1+r) N(u^k) - r N(u^{k-1}),   a = Re (1+2r) /
-//   ((1+r) dt).
+// One step (paper, Section 3.3, Step 3; Guermond, Minev & Shen 2006, doi:10.1016/j.cma.2005.10.010), equal steps:
+//   Re [(3u* - 4u^k + u^{k-1}) / (2dt) + 2N(u^k) - N(u^{k-1})] = -grad p^k + mu Lap u* + f,   u* = u^{k+1} on the walls
+//   Lap phi = a div u*,   u^{k+1} = u* - grad phi / a,   p^{k+1} = p^k + phi - mu div u*,     a = 3Re / (2dt)
+// with N of operators.h. The step may change: the coefficients are those of variable-step BDF2 (stable while it grows
+// by less than a factor 1 + sqrt 2 at a time), with r = dt / previous dt
+//   [(1+2r)/(1+r) u* - (1+r) u^k + r^2/(1+r) u^{k-1}] / dt,   (1+r) N(u^k) - r N(u^{k-1}),   a = Re (1+2r) / ((1+r) dt).
 // The first step is backward Euler: Re [(u* - u^0)/dt + N(u^0)], a = Re / dt. The pressure starts at zero,
 // and its mean stays zero.
 //

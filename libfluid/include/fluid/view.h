@@ -20,9 +20,7 @@ struct BasicView {
   T& operator()(int i, int j, int k) const { return row(j, k)[i]; }
 
   // A view of numbers is a view of constant numbers.
-  operator BasicView<const T>() const requires(!std::is_const_v<T>) {
-    return {data, extent, row_stride, plane_stride};
-  }
+  operator BasicView<const T>() const requires(!std::is_const_v<T>) { return {data, extent, row_stride, plane_stride}; }
 };
 
 using View = BasicView<double>;

@@ -9,14 +9,12 @@ namespace vesiflow::vesicle {
 
 /// How the surface Laplacian of the mean curvature is discretised.
 enum class LaplacianForm {
-  /// H on the grid of 2N latitudes from the coefficients of X; its Cartesian surface gradient there (three
-  /// smooth scalars),
-  /// Eq. (11); transform with 2N degrees; Eq. (12) at the markers. Spectrally accurate.
+  /// H on the grid of 2N latitudes from the coefficients of X; its Cartesian surface gradient there (three smooth
+  /// scalars), Eq. (11); transform with 2N degrees; Eq. (12) at the markers. Spectrally accurate.
   cartesian,
-  /// The paper's upsampling algorithm (Section 3.2): Eq. (14) on the grid of 2N latitudes, then truncated to
-  /// N degrees. The flux
-  /// of Eq. (14) is not smooth on the sphere, so the error stalls (0.2 on the 1:2:4 ellipsoid, where max |Lap
-  /// H| = 100).
+  /// The paper's upsampling algorithm (Section 3.2): Eq. (14) on the grid of 2N latitudes, then truncated to N degrees. The
+  /// flux of Eq. (14) is not smooth on the sphere, so the error stalls (0.2 on the 1:2:4 ellipsoid, where
+  /// max |Lap H| = 100).
   paper,
 };
 

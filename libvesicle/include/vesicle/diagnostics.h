@@ -60,7 +60,6 @@ struct Diagnostics {
 /// Measures a membrane at its last geometry. marker_velocity: the interpolated U, for Eq. (34);
 /// mesh_velocity: the velocity whose surface divergence is reported (the paper's Table 3 uses the filtered
 /// one). Both of shape (markers, 3).
-Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity,
-                    const VectorField& mesh_velocity);
+Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& mesh_velocity);
 
 }  // namespace vesiflow::vesicle

@@ -64,8 +64,7 @@ class Membrane {
   /// (skipped for sigma0 = 0), then takes the new positions. The geometry stays the old one until
   /// update_geometry(). velocity: interpolated U; filtered: the velocity U~ that moved the markers, as
   /// averaged over the step by the integrator.
-  void advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
-               double dt);
+  void advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered, double dt);
 
   const MembraneParameters& parameters() const { return parameters_; }
   const Surface& surface() const { return surface_; }

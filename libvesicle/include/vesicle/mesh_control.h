@@ -11,9 +11,8 @@ enum class FilterOrder {
   /// U~ = (n . F_normal U) n + (I - n n^T) F_tangential U. U is smooth though its normal and tangential parts
   /// are not.
   velocity_first,
-  /// U~ = F_normal [(U . n) n] + F_tangential [(I - n n^T) U], the reading of the paper's text. Unstable for
-  /// elongated shapes
-  /// (reduced volume 0.8): the parts have slowly decaying spectra.
+  /// U~ = F_normal [(U . n) n] + F_tangential [(I - n n^T) U]: the other reading of the paper's text. Unstable for
+  /// elongated shapes (reduced volume 0.8), since the parts have slowly decaying spectra.
   components,
 };
 

@@ -21,8 +21,7 @@ namespace vesiflow::vesicle {
 ///
 /// The number of degrees p is free of the grid:
 /// - p <= latitudes: analysis is exact for fields of degree < p, and is the discrete adjoint of synthesis;
-/// - p > latitudes: synthesis and derivatives are still the exact values of the expansion at the nodes
-/// (orders beyond
+/// - p > latitudes: synthesis and derivatives are still the exact values of the expansion at the nodes (orders beyond
 ///   the longitudes' Nyquist order are folded onto the Fourier mode they equal there); analysis is refused.
 /// Coefficients of more than p degrees may be given: the transform reads those with n < p, which makes it a
 /// sharp low-pass filter.
@@ -61,8 +60,7 @@ class SphericalHarmonics {
   void gradient(const Coefficients& coefficients, Output theta, Output phi) const;
 
   /// Second derivatives, Eqs. (28)-(30).
-  void second_derivatives(const Coefficients& coefficients, Output theta_theta, Output theta_phi,
-                          Output phi_phi) const;
+  void second_derivatives(const Coefficients& coefficients, Output theta_theta, Output theta_phi, Output phi_phi) const;
 
  private:
   class Implementation;

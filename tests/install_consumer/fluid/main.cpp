@@ -7,9 +7,7 @@
 int main() {
   using namespace vesiflow::fluid;
   const Grid grid({0, 0, 0}, {1, 1, 1}, {24, 24, 24});
-  const auto lid = [](const Vector3& position, double) {
-    return Vector3{position[2] == 1.0 ? 1.0 : 0.0, 0.0, 0.0};
-  };
+  const auto lid = [](const Vector3& position, double) { return Vector3{position[2] == 1.0 ? 1.0 : 0.0, 0.0, 0.0}; };
   NavierStokes flow(grid, {.reynolds_number = 100}, lid);
   for (int step = 0; step < 100; ++step) flow.step(0.02);
 

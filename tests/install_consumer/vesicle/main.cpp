@@ -16,8 +16,8 @@ int main() {
     const double radius = 0.6 + 0.5 * cosine * cosine;
     for (int i = 0; i < grid.longitudes(); ++i) {
       const double longitude = grid.longitude(i);
-      positions.row(grid.index(i, j)) << radius * sine * std::cos(longitude),
-          radius * sine * std::sin(longitude), radius * cosine;
+      positions.row(grid.index(i, j)) << radius * sine * std::cos(longitude), radius * sine * std::sin(longitude),
+          radius * cosine;
     }
   }
   surface.update(positions);
@@ -29,7 +29,6 @@ int main() {
                 surface.gaussian_curvature()[marker]);
   }
   const double gauss_bonnet = surface.integral(surface.gaussian_curvature()) / (4 * std::numbers::pi) - 1;
-  std::printf("area %.10f, volume %.10f, int K dA / 4 pi - 1 = %.1e\n", surface.area(), surface.volume(),
-              gauss_bonnet);
+  std::printf("area %.10f, volume %.10f, int K dA / 4 pi - 1 = %.1e\n", surface.area(), surface.volume(), gauss_bonnet);
   return std::abs(gauss_bonnet) < 1e-9 ? 0 : 1;
 }
