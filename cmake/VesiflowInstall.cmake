@@ -17,7 +17,7 @@ set(package_tomlplusplus "tomlplusplus")
 foreach(library IN LISTS VESIFLOW_LIBRARIES)
   # Read off the target, so that options and static against shared need no case here: a shared library links its
   # private dependencies itself, a static one leaves them to its consumer as $<LINK_ONLY:...>.
-  get_target_property(linked ${library} INTERFACE_LINK_LIBRARIES)
+  get_target_property(linked vesiflow_${library} INTERFACE_LINK_LIBRARIES)
   set(needs "")
   foreach(item IN LISTS linked)
     string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" item "${item}")

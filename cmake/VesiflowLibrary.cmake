@@ -1,4 +1,4 @@
-# vesiflow_library(NAME): the target Vesiflow::NAME from lib<NAME>/include and lib<NAME>/src, with the
+# vesiflow_library(NAME): the target vesiflow_NAME, for users Vesiflow::NAME, from lib<NAME>/include and lib<NAME>/src, with the
 # project's language level, warnings and code generation. Callers add sources and link dependencies.
 include(GNUInstallDirs)
 
@@ -23,19 +23,20 @@ endfunction()
 
 function(vesiflow_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES")
-  add_library(${name} ${arg_SOURCES})
-  add_library(Vesiflow::${name} ALIAS ${name})
-  vesiflow_compile_options(${name})
-  set_target_properties(${name} PROPERTIES
-    OUTPUT_NAME vesiflow_${name}
+  set(target vesiflow_${name})  # "fluid" alone could meet a target of the project that includes us
+  add_library(${target} ${arg_SOURCES})
+  add_library(Vesiflow::${name} ALIAS ${target})
+  vesiflow_compile_options(${target})
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${name}
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}
     POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(${name}
+  target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
-  install(TARGETS ${name} EXPORT Vesiflow_${name}
+  install(TARGETS ${target} EXPORT Vesiflow_${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow)
 endfunction()

@@ -8,7 +8,7 @@ packages=(
   g++ cmake ninja-build git pkg-config
   libeigen3-dev libfftw3-dev libsuitesparse-dev libopenblas-dev libsundials-dev libhdf5-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-matplotlib python3-h5py
 )
 commands=(g++ cmake ninja git)

@@ -90,7 +90,11 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
             "exact, of the marker velocity", "membrane.volume is not \"projection\"");
   plan.part(true, "markers", scene.time.markers, "");
-  plan.part(tension, "target areas", "Eqs. (32), (33)", "membrane.sigma0 = 0");
+  plan.part(tension, "target areas",
+            scene.mesh.slip == vesicle::SlipReference::dealiased
+                ? "Eqs. (32), (33), slip against the dealiased velocity"
+                : "Eqs. (32), (33), slip against the interpolated velocity (paper)",
+            "membrane.sigma0 = 0");
 }
 
 void describe_output(Plan& plan, const Scene& scene) {

@@ -47,6 +47,7 @@ void apply_preset(Scene& scene) {
   if (scene.method.preset != Preset::paper) return;
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;
+  scene.mesh.slip = vesicle::SlipReference::interpolated;
 }
 
 void visit_keys(Scene& scene, KeyVisitor& v) {
@@ -74,6 +75,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
 
   v.integer("mesh.latitudes", scene.mesh.latitudes, Range::between(8, 256));
   choice_of(v, "mesh.filter", scene.mesh.filter, {"velocity", "components"});
+  choice_of(v, "mesh.slip", scene.mesh.slip, {"interpolated", "dealiased"});
   v.integer("mesh.normal_degrees", scene.mesh.normal_degrees, Range::from(0));
   v.integer("mesh.tangential_degrees", scene.mesh.tangential_degrees, Range::from(2));
 

@@ -21,6 +21,7 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
   parameters.volume = scene.membrane.volume;
   parameters.volume_stiffness = scene.membrane.volume_stiffness;
   parameters.filter = scene.mesh.filter;
+  parameters.slip = scene.mesh.slip;
   parameters.normal_degrees = scene.mesh.normal_degrees;
   parameters.tangential_degrees = scene.mesh.tangential_degrees;
   return parameters;

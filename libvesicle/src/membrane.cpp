@@ -29,6 +29,7 @@ Membrane::Membrane(const VectorField& initial_positions, int latitudes, const Me
     : parameters_(checked(parameters)),
       surface_(latitudes),
       filter_(surface_.grid(), parameters.filter, normal_degrees(parameters, latitudes), parameters.tangential_degrees),
+      target_area_update_(surface_.grid(), parameters.slip),
       positions_(initial_positions),
       force_(VectorField::Zero(surface_.grid().size(), 3)),
       tension_(ScalarField::Zero(surface_.grid().size())) {

@@ -70,13 +70,26 @@ void MeshFilter::filter_components(const VectorField& normal, const VectorField&
   filtered += part_;
 }
 
+TargetAreaUpdate::TargetAreaUpdate(const SphereGrid& grid, SlipReference reference)
+    : coefficients_(grid.latitudes(), 3),
+      slip_(grid.size(), 3),
+      normal_slip_(grid.size()),
+      slip_divergence_(grid.size()) {
+  if (reference == SlipReference::dealiased) dealiasing_.emplace(two_thirds_degrees(grid.latitudes()), grid);
+}
+
 void TargetAreaUpdate::apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered,
                              double dt, double total_area, ScalarField& target_areas) {
   const Eigen::Index markers = surface.grid().size();
   check_markers(velocity, "velocity", markers);
   check_markers(filtered, "filtered", markers);
   check_markers(target_areas, "target_areas", markers);
-  slip_ = filtered - velocity;
+  slip_ = velocity;
+  if (dealiasing_) {
+    dealiasing_->analysis(velocity, coefficients_);
+    dealiasing_->synthesis(coefficients_, slip_);
+  }
+  slip_ = filtered - slip_;
   normal_slip_ = (slip_ * surface.normal()).rowwise().sum();
   for (int component = 0; component < 3; ++component)
     slip_.col(component) -= normal_slip_ * surface.normal().col(component);

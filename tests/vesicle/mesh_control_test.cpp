@@ -97,7 +97,7 @@ TEST(TargetAreaUpdate, ConservesTheTotalAndIgnoresNormalSlip) {
   const VectorField filtered = smooth_vector(surface.grid(), 5, 72);
   const double total = surface.area();
   ScalarField areas = surface.area_weight();
-  TargetAreaUpdate update;
+  TargetAreaUpdate update(surface.grid(), SlipReference::interpolated);
   update.apply(surface, velocity, filtered, 0.01, total, areas);
   EXPECT_NEAR(areas.sum(), total, 1e-13 * total);
   EXPECT_GT((areas - surface.area_weight()).abs().maxCoeff(), 0);
@@ -117,7 +117,8 @@ TEST(TargetAreaUpdate, FollowsTheSlidingMesh) {
     surface.gradient(smooth_scalar(surface.grid(), 4, 74), slip);
     ScalarField areas = surface.area_weight();
     const double total = surface.area();
-    TargetAreaUpdate().apply(surface, VectorField::Zero(slip.rows(), 3), slip, dt, total, areas);
+    TargetAreaUpdate(surface.grid(), SlipReference::dealiased)
+        .apply(surface, VectorField::Zero(slip.rows(), 3), slip, dt, total, areas);
     VectorField moved = surface.positions() + dt * slip;
     const ScalarField radius = moved.square().rowwise().sum().sqrt();
     surface.update(moved.colwise() / radius);

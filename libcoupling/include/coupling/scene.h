@@ -62,6 +62,7 @@ struct Scene {
   struct Mesh {
     int latitudes = 32;
     vesicle::FilterOrder filter = vesicle::FilterOrder::velocity_first;
+    vesicle::SlipReference slip = vesicle::SlipReference::dealiased;
     int normal_degrees = 0;       ///< degrees kept in the velocity that shapes; 0: two thirds
     int tangential_degrees = 15;  ///< degrees kept in the velocity along the membrane
   } mesh;

@@ -25,8 +25,9 @@ struct MembraneParameters {
   VolumeControl volume = VolumeControl::projection;
   double volume_stiffness = 0;  ///< c_v >= 0 of Eq. (22), read for VolumeControl::penalty only
   FilterOrder filter = FilterOrder::velocity_first;
-  int normal_degrees = 0;       ///< degrees kept in the normal velocity; 0: the 2N/3 rule
-  int tangential_degrees = 15;  ///< degrees kept in the tangential velocity
+  int normal_degrees = 0;                         ///< degrees kept in the normal velocity; 0: the 2N/3 rule
+  int tangential_degrees = 15;                    ///< degrees kept in the tangential velocity
+  SlipReference slip = SlipReference::dealiased;  ///< of the target areas, read for sigma0 > 0
 };
 
 /// Everything a membrane must remember between steps; restoring it repeats an uninterrupted run bit for bit.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
@@ -42,10 +44,21 @@ class MeshFilter {
   VectorField part_;
 };
 
+/// Which velocity stands for the membrane's own in the slip of the mesh.
+enum class SlipReference {
+  /// U as it is interpolated from the fluid, as in the paper. Its high degrees are noise of the fluid grid, which then
+  /// builds up in the target areas.
+  interpolated,
+  /// F_{2N/3} U: what dealiasing removes from U moves neither mesh nor membrane.
+  dealiased,
+};
+
 /// Target areas of the markers, which follow the slip of the mesh relative to the membrane (Step 5 of
 /// Section 3.3).
 class TargetAreaUpdate {
  public:
+  TargetAreaUpdate(const SphereGrid& grid, SlipReference reference);
+
   /// One step of Eqs. (33) and (32) with the geometry before the move:
   ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
   /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
@@ -53,6 +66,8 @@ class TargetAreaUpdate {
              double total_area, ScalarField& target_areas);
 
  private:
+  std::optional<SphericalHarmonics> dealiasing_;
+  Coefficients coefficients_;
   VectorField slip_;
   ScalarField normal_slip_, slip_divergence_;
 };

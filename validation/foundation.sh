@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Runs the cases of docs/validation.md (about five minutes on two cores) and writes their table to
+# validation/foundation.md.
+# usage: validation/foundation.sh [APPS_DIR]      (default build/release/apps; results in out/validation)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+apps=${1:-build/release/apps}
+out=out/validation
+
+case_of() { # case_of NAME APP SCENE OPTION...
+  echo "== $1"
+  "$apps/$2" "scenes/$3.toml" --out "$out/$1" "${@:4}"
+}
+n32=(--set domain.cells=32 --set mesh.latitudes=16 --set time.step=1/192 --set membrane.sigma0=300)
+case_of tank_treading shear_flow tank_treading_coarse
+case_of tank_treading_paper shear_flow tank_treading_coarse --set method.preset=paper
+case_of sphere shear_flow sphere_in_shear
+case_of oblate_32 relaxation relaxation_oblate "${n32[@]}"
+case_of oblate_64 relaxation relaxation_oblate
+
+scripts/python.sh validation/foundation_table.py "$out" >validation/foundation.md
+cat validation/foundation.md
