@@ -33,7 +33,7 @@ foreach(library IN LISTS VESIFLOW_LIBRARIES)
   list(REMOVE_DUPLICATES needs)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/Vesiflow_${library}_needs.cmake
     CONTENT "set(Vesiflow_${library}_needs \"${needs}\")\n")
-  set_target_properties(${library} PROPERTIES INSTALL_RPATH "$ORIGIN")  # shared libraries find their siblings
+  set_target_properties(vesiflow_${library} PROPERTIES INSTALL_RPATH "$ORIGIN")  # shared libraries find their siblings
   install(FILES ${PROJECT_BINARY_DIR}/Vesiflow_${library}_needs.cmake DESTINATION ${config_dir})
   install(EXPORT Vesiflow_${library} NAMESPACE Vesiflow:: DESTINATION ${config_dir})
 endforeach()
