@@ -46,7 +46,7 @@ Scene scene_of(const Arguments& arguments) {
 }
 
 void require_flow(const SceneApp& app, const Scene& scene, const std::string& file) {
-  if (scene.flow.type == app.flow) return;
+  if (scene.flow.type == app.flow || scene.flow.type == FlowType::custom) return;
   const bool shear = app.flow == FlowType::shear;
   throw SceneError(fmt::format("{}: flow.type = \"{}\": {} computes \"{}\" only; use the app {}", file,
                                shear ? "rest" : "shear", app.name, shear ? "shear" : "rest",

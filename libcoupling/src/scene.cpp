@@ -58,6 +58,16 @@ void check_physics(const Scene& scene, const std::string& name) {
                                  scene.mesh.tangential_degrees, scene.mesh.latitudes));
 }
 
+void check_tension(const Scene& scene, const std::string& name) {
+  if (!scene.membrane.g) return;
+  const double meant = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
+  if (std::abs(meant - scene.membrane.sigma0) > 5e-3 * meant)
+    throw SceneError(
+        fmt::format("{}: membrane.g = {:g} and membrane.sigma0 = {:g} disagree: at this time step and spacing "
+                    "g means sigma0 = {:g}; give one of them",
+                    name, *scene.membrane.g, scene.membrane.sigma0, meant));
+}
+
 void check_vesicle_keys(const VesicleScene& vesicle, const std::string& key, const std::string& name) {
   const bool spheroid = vesicle.shape == Shape::prolate || vesicle.shape == Shape::oblate;
   const int given = (vesicle.reduced_volume ? 1 : 0) + (vesicle.aspect_ratio ? 1 : 0);
@@ -115,6 +125,7 @@ long Scene::steps() const {
 void check_scene(const Scene& scene, const std::string& name) {
   check_domain(scene, name);
   check_physics(scene, name);
+  check_tension(scene, name);
   check_time(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {

@@ -279,18 +279,10 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
   refuse_unknown(document, document.root(), "", known);
   read_vesicles(document, scene, name);
 
-  const bool gave_sigma0 = document.find("membrane.sigma0") != nullptr;
-  if (scene.membrane.g) {
-    const double sigma0 = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
-    if (gave_sigma0 && std::abs(sigma0 - scene.membrane.sigma0) > 5e-3 * sigma0)
-      throw SceneError(
-          fmt::format("{}: membrane.g = {:g} and membrane.sigma0 = {:g} disagree: at this time step and "
-                      "spacing g means sigma0 = {:g}; give one of them",
-                      name, *scene.membrane.g, scene.membrane.sigma0, sigma0));
-    if (!gave_sigma0) scene.membrane.sigma0 = sigma0;
-    scene.membrane.g.reset();
-  }
+  if (scene.membrane.g && document.find("membrane.sigma0") == nullptr)
+    scene.membrane.sigma0 = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
   check_scene(scene, name);
+  scene.membrane.g.reset();  // said; sigma0 is what counts from here on
   return scene;
 }
 

@@ -58,7 +58,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.vector("domain.upper", scene.domain.upper, Range::any());
   v.cells("domain.cells", scene.domain.cells, Range::between(8, 2048));
 
-  choice_of(v, "flow.type", scene.flow.type, {"rest", "shear"});
+  choice_of(v, "flow.type", scene.flow.type, {"rest", "shear", "custom"});
   v.number("flow.rate", scene.flow.rate, Range::any());
   choice_of(v, "flow.start", scene.flow.start, {"flow", "rest"});
 

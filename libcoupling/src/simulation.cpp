@@ -27,6 +27,11 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
   return parameters;
 }
 
+const Scene& checked(const Scene& scene) {
+  check_scene(scene, "scene");
+  return scene;
+}
+
 std::string blow_up_advice(const Scene& scene) {
   return fmt::format(
       "the explicit tension is unstable above g = dt sigma0/(4 mu h) of 7 to 8, and this scene has g = {:.3g}: reduce "
@@ -77,15 +82,22 @@ fluid::FluidParameters fluid_parameters_of(const Scene& scene) {
 }
 
 fluid::BoundaryVelocity flow_of(const Scene& scene) {
+  if (scene.flow.type == FlowType::custom)
+    throw SceneError(
+        "flow.type = \"custom\": stands for the flow of a program of one's own (docs/first_app.md); a scene "
+        "file can name rest or shear");
   const double rate = scene.flow.type == FlowType::shear ? scene.flow.rate : 0.0;
   return [rate](const fluid::Vector3& x, double) { return fluid::Vector3{rate * x[2], 0.0, 0.0}; };
 }
 
-Simulation::Simulation(const Scene& scene) : Simulation(scene, flow_of(scene), true) {}
+Simulation::Simulation(const Scene& scene) : Simulation(scene, flow_of(scene), true, scene.flow.type) {}
 
 Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady)
-    : scene_(scene), fluid_(grid_of(scene), fluid_parameters_of(scene), flow, steady) {
-  check_scene(scene_, "scene");
+    : Simulation(scene, flow, steady, FlowType::custom) {}
+
+Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady, FlowType type)
+    : scene_(checked(scene)), fluid_(grid_of(scene), fluid_parameters_of(scene), flow, steady) {
+  scene_.flow.type = type;
   if (scene_.flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow(x, 0.0); });
   for (const VesicleScene& shape : scene_.vesicles) {

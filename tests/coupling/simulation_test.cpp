@@ -8,6 +8,7 @@
 
 #include "coupling/errors.h"
 #include "small_scene.h"
+#include "support/allocation_counter.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -110,6 +111,17 @@ TEST(Simulation, VesiclesInOneBoxDoNotDependOnTheirOrder) {
   };
   EXPECT_LT(difference(0), 1e-12);
   EXPECT_LT(difference(1), 1e-12);
+}
+
+TEST(Simulation, AWarmedUpStepAllocatesNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
+  for (const char* markers : {"euler", "ab2"}) {
+    Simulation simulation(small_scene({"membrane.g=2", std::string("time.markers=") + markers}));
+    advance(simulation, 3);
+    const long before = test::allocation_count();
+    advance(simulation, 2);
+    EXPECT_EQ(test::allocation_count() - before, 0) << markers;
+  }
 }
 
 // A membrane that nothing holds moves with the fluid: a linear flow carries it exactly.

@@ -13,7 +13,7 @@
 namespace vesiflow::coupling {
 
 enum class Preset { standard, paper };
-enum class FlowType { rest, shear };
+enum class FlowType { rest, shear, custom };
 enum class FlowStart { flow, rest };
 enum class Shape { sphere, prolate, oblate, ellipsoid };
 

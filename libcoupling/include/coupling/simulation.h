@@ -43,8 +43,8 @@ class Simulation {
   /// The scene as it starts, with the flow it names.
   /// \throws SceneError for a scene that cannot be computed
   explicit Simulation(const Scene& scene);
-  /// The same with a boundary velocity of one's own instead of the scene's flow; it is also the initial velocity
-  /// if flow.start = "flow". `steady` says that it does not depend on time.
+  /// The same with a boundary velocity of one's own instead of the scene's flow (flow.type becomes "custom"); it is also
+  /// the initial velocity if flow.start = "flow". `steady` says that it does not depend on time.
   Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady);
   ~Simulation();
   Simulation(const Simulation&) = delete;
@@ -78,6 +78,8 @@ class Simulation {
  private:
   struct ImmersedVesicle;
 
+  Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady, FlowType type);
+
   void compute_forces();
   void advance_fluid();
   void move_markers();
@@ -91,6 +93,7 @@ class Simulation {
 };
 
 /// The boundary velocity of the scene's flow.
+/// \throws SceneError for flow.type = "custom", which only a program can give
 fluid::BoundaryVelocity flow_of(const Scene& scene);
 /// The scene's box as a grid.
 fluid::Grid grid_of(const Scene& scene);
