@@ -8,12 +8,16 @@ import argparse
 import sys
 from pathlib import Path
 
-import matplotlib
+try:
+    import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-from matplotlib.collections import LineCollection, PolyCollection
+    matplotlib.use("Agg")
+    import h5py
+    import matplotlib.pyplot as plt
+    import numpy as np
+    from matplotlib.collections import LineCollection, PolyCollection
+except ImportError as error:
+    sys.exit(f"{error}. A python that has what this needs is found by: scripts/python.sh {' '.join(sys.argv)}")
 
 # Okabe and Ito's colours: told apart by colour-blind readers too.
 BLUE, ORANGE, GREEN, VERMILLION = "#0072B2", "#E69F00", "#009E73", "#D55E00"
@@ -91,10 +95,6 @@ def draw_history(folder, target):
 
 def open_snapshots(path):
     """The HDF5 file and the names of its steps in order."""
-    try:
-        import h5py
-    except ImportError:
-        raise MissingData("python has no h5py (Debian: python3-h5py)") from None
     if not path.exists():
         raise MissingData(f"{path} is missing (snapshots off in the scene, or a build without HDF5)")
     try:

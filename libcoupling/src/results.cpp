@@ -85,7 +85,7 @@ std::optional<std::filesystem::path> move_earlier_results(const std::filesystem:
   return target;
 }
 
-DiagnosticsTable::DiagnosticsTable(std::filesystem::path directory) : file_(directory / "diagnostics.csv") {
+DiagnosticsTable::DiagnosticsTable(const std::filesystem::path& directory) : file_(directory / "diagnostics.csv") {
   std::ifstream stream(file_);
   std::string row;
   std::getline(stream, row);

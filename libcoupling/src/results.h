@@ -31,7 +31,7 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
 /// diagnostics.csv: one whole line per vesicle and time, appended at once.
 class DiagnosticsTable {
  public:
-  explicit DiagnosticsTable(std::filesystem::path directory);
+  explicit DiagnosticsTable(const std::filesystem::path& directory);
   void write(Simulation& simulation);
   /// Removes the rows after `step`: a restarted run writes them again.
   void rewind(long step);

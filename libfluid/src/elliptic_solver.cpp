@@ -35,6 +35,8 @@ template <class... Visitors>
 struct Overloaded : Visitors... {
   using Visitors::operator()...;
 };
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 #ifndef VESIFLOW_WITH_CHOLMOD
 [[noreturn]] void refuse_cholmod() {

@@ -100,7 +100,7 @@ void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int com
     const double* above_1 = above_0 - stride(u[d], component);
     axes[d] = {c + c_step, c - c_step, above_0, above_1, above_0 - d_step, above_1 - d_step, 0.25 / grid.spacing(d)};
   }
-  const auto [x, y, z] = axes;
+  const Axis x = axes[0], y = axes[1], z = axes[2];
   const auto flux_difference = [](const Axis& a, int i) {
     return a.factor * ((a.above_0[i] + a.above_1[i]) * a.c_above[i] - (a.below_0[i] + a.below_1[i]) * a.c_below[i]);
   };
