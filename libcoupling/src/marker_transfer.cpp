@@ -42,7 +42,7 @@ constexpr int point_set(int axis) {
 
 MarkerTransfer::MarkerTransfer(const fluid::Grid& grid) : grid_(grid) {}
 
-void MarkerTransfer::update(const vesicle::VectorField& positions) {
+void MarkerTransfer::update(const Eigen::Ref<const vesicle::VectorField>& positions) {
   stencils_.resize(static_cast<std::size_t>(positions.rows()));
   box_.first.fill(std::numeric_limits<std::int32_t>::max());
   box_.last.fill(std::numeric_limits<std::int32_t>::min());

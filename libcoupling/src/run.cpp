@@ -12,6 +12,7 @@
 #include "atomic_file.h"
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
+#include "hdf5_file.h"
 #include "phase_timer.h"
 #include "progress.h"
 #include "results.h"
@@ -85,7 +86,23 @@ class Run {
   RunRecord record_;
 };
 
+// A build without HDF5 refuses a scene that asks for its files, before anything is touched.
+void require_hdf5(const Scene::Output& output) {
+  if (have_hdf5()) return;
+  const auto refuse = [](const char* key, double every) {
+    if (every > 0.0)
+      throw SceneError(
+          fmt::format("{} = {:g}: this build writes no HDF5; configure with -DVESIFLOW_WITH_HDF5=ON, or set "
+                      "the key to 0",
+                      key, every));
+  };
+  refuse("output.vesicle_every", output.vesicle_every);
+  refuse("output.fluid_every", output.fluid_every);
+  refuse("output.checkpoint_every", output.checkpoint_every);
+}
+
 void Run::start() {
+  require_hdf5(simulation_.scene().output);
   if (options_.checkpoint) {
     restore_checkpoint(*options_.checkpoint, simulation_);
     last_checkpoint_ = *options_.checkpoint;

@@ -22,7 +22,7 @@ class MarkerTransfer {
 
   /// Computes the weights for markers at `positions` (markers x 3, in length units).
   /// \throws SimulationStopped when a marker is so near a wall that its support leaves the box
-  void update(const vesicle::VectorField& positions);
+  void update(const Eigen::Ref<const vesicle::VectorField>& positions);
 
   /// Adds the force density of `force` (per membrane area, markers x 3) times `area_weight` (dA per marker).
   void spread(const vesicle::VectorField& force, const vesicle::ScalarField& area_weight, fluid::FaceVector& density);
