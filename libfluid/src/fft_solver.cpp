@@ -34,16 +34,10 @@ std::vector<double> eigenvalues(const EllipticProblem& problem, int axis) {
   return values;
 }
 
-// Whole cache lines, and an odd number of them: rows a power of two apart would compete for the same cache
-// sets.
-std::ptrdiff_t padded(int extent) {
-  return 8 * ((extent + 7) / 8 | 1);
-}
-
 }  // namespace
 
 FftSolver::Scratch::Scratch(const std::array<int, 3>& extent, std::ptrdiff_t row_stride)
-    : plane(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[1])),
+    : transform(allocate_aligned(TransformPlan::scratch_size({extent[0], extent[1]}))),
       slab(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[2])),
       factors(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[2])),
       column(extent[2]) {}
@@ -54,8 +48,8 @@ FftSolver::FftSolver(const EllipticProblem& problem) : EllipticSolver(problem) {
 
 std::size_t FftSolver::estimate_memory(const EllipticProblem& problem, int threads) {
   const auto n = problem.extent();
-  const auto per_thread = padded(n[0]) * (n[1] + 2 * n[2]) + n[2];
-  return sizeof(double) * static_cast<std::size_t>(threads * per_thread + n[0] + n[1]);
+  const auto slabs = static_cast<std::size_t>(padded(n[0]) * 2 * n[2] + n[2]);
+  return sizeof(double) * (threads * (TransformPlan::scratch_size({n[0], n[1]}) + slabs) + n[0] + n[1]);
 }
 
 void FftSolver::do_update(const EllipticProblem& problem) {
@@ -68,11 +62,11 @@ void FftSolver::do_update(const EllipticProblem& problem) {
     row_stride_ = padded(extent_[0]);
     const std::array<int, 2> plane{extent_[0], extent_[1]};
     const std::array<Basis, 2> bases{basis(problem, 0), basis(problem, 1)};
-    forward_ = std::make_unique<TransformPlan>(plane, row_stride_, bases, Direction::forward);
-    backward_ = std::make_unique<TransformPlan>(plane, row_stride_, bases, Direction::backward);
+    forward_ = std::make_unique<TransformPlan>(plane, bases, Direction::forward);
+    backward_ = std::make_unique<TransformPlan>(plane, bases, Direction::backward);
     eigenvalues_ = {eigenvalues(problem, 0), eigenvalues(problem, 1)};
     normalisation_ =
-        1.0 / (TransformPlan::pair_factor(bases[0], plane[0]) * TransformPlan::pair_factor(bases[1], plane[1]));
+        1.0 / (LineTransform::pair_factor(bases[0], plane[0]) * LineTransform::pair_factor(bases[1], plane[1]));
     const double h = problem.grid.spacing(2);
     z_coupling_ = 1.0 / (h * h);
     z_end_diagonal_ = problem.end_diagonal(2);
@@ -88,36 +82,20 @@ SolveReport FftSolver::do_solve(ConstView rhs, View x) {
   {
     Scratch& scratch = scratch_[omp_get_thread_num()];
 #pragma omp for schedule(static)
-    for (int k = 0; k < extent_[2]; ++k) forward_plane(rhs, x, k, scratch);
+    for (int k = 0; k < extent_[2]; ++k) {
+      forward_->execute(rhs.row(0, k), rhs.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+    }
 #pragma omp for schedule(static)
     for (int j = 0; j < extent_[1]; ++j) {
       if (nullspace_ && j == 0) report.removed_mean = solve_singular_column(x, scratch);
       solve_slab(x, j, scratch);
     }
 #pragma omp for schedule(static)
-    for (int k = 0; k < extent_[2]; ++k) backward_plane(x, k, scratch);
+    for (int k = 0; k < extent_[2]; ++k) {
+      backward_->execute(x.row(0, k), x.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+    }
   }
   return report;
-}
-
-void FftSolver::forward_plane(ConstView rhs, View x, int k, Scratch& scratch) const {
-  for (int j = 0; j < extent_[1]; ++j) {
-    std::copy_n(rhs.row(j, k), extent_[0], scratch.plane.get() + j * row_stride_);
-  }
-  forward_->execute(scratch.plane.get());
-  for (int j = 0; j < extent_[1]; ++j) {
-    std::copy_n(scratch.plane.get() + j * row_stride_, extent_[0], x.row(j, k));
-  }
-}
-
-void FftSolver::backward_plane(View x, int k, Scratch& scratch) const {
-  for (int j = 0; j < extent_[1]; ++j) {
-    std::copy_n(x.row(j, k), extent_[0], scratch.plane.get() + j * row_stride_);
-  }
-  backward_->execute(scratch.plane.get());
-  for (int j = 0; j < extent_[1]; ++j) {
-    std::copy_n(scratch.plane.get() + j * row_stride_, extent_[0], x.row(j, k));
-  }
 }
 
 // Elimination along z for all modes of x at one mode j of y:

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "aligned_array.h"
 #include "fluid/elliptic_solver.h"
 #include "transform_plan.h"
 
@@ -19,17 +20,16 @@ class FftSolver final : public EllipticSolver {
   static std::size_t estimate_memory(const EllipticProblem& problem, int threads);
 
  private:
-  // Work space of one thread: an x-y plane, and an x-z slab with its elimination factors, rows padded alike.
+  // Work space of one thread: that of a plane's transform, and an x-z slab with its elimination factors, rows
+  // padded alike.
   struct Scratch {
     Scratch(const std::array<int, 3>& extent, std::ptrdiff_t row_stride);
-    AlignedArray plane, slab, factors;
+    AlignedArray transform, slab, factors;
     std::vector<double> column;
   };
 
   void do_update(const EllipticProblem& problem) override;
   SolveReport do_solve(ConstView rhs, View x) override;
-  void forward_plane(ConstView rhs, View x, int k, Scratch& scratch) const;
-  void backward_plane(View x, int k, Scratch& scratch) const;
   void solve_slab(View x, int j, Scratch& scratch) const;
   double solve_singular_column(ConstView x, Scratch& scratch) const;
 

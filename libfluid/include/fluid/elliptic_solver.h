@@ -34,7 +34,8 @@ class EllipticSolver {
   void update(const EllipticProblem& problem);
 
   // Solves for x. rhs and x have the shape of problem().extent(); they may be the same array but not overlap
-  // otherwise. Does not allocate. Throws std::invalid_argument for a wrong shape and std::runtime_error if
+  // otherwise. Does not allocate (but FFTW does within "fft", for
+  // a number of cells with a prime factor above 31). Throws std::invalid_argument for a wrong shape and std::runtime_error if
   // the solution is not finite, which happens exactly if rhs is not (or overflows).
   SolveReport solve(ConstView rhs, View x);
 

@@ -74,7 +74,8 @@ class NavierStokes {
   FaceVector& force();
   const FaceVector& force() const;
 
-  // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same. Throws
+  // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver
+  // for the exception). Throws
   // std::invalid_argument unless dt > 0 is finite, and std::runtime_error, with the step and the time, if the
   // solution is not finite; the state is then lost.
   void step(double dt);

@@ -1,0 +1,209 @@
+// Cells. With the even-odd order v = (x_0, x_2, x_4, .., x_5, x_3, x_1), its Fourier transform V_k and
+// t = pi k / 2n, the cosine transform is (Makhoul 1980, doi:10.1109/TASSP.1980.1163351)
+//   y_k = 2 Re(exp(-i t) V_k).
+// Two lines as one complex line z have V_k = (Z_k + Z*_{n-k}) / 2 and (Z_k - Z*_{n-k}) / 2i. Insert: the pair of
+// results, again as a complex number, is
+//   y_k = cos t S - i sin t D,   y_{n-k} = sin t S + i cos t D,   S = Z_k + Z_{n-k},   D = Z_k - Z_{n-k},
+// and backwards, up to the factor 2,  S = cos t y_k + sin t y_{n-k},   D = i (sin t y_k - cos t y_{n-k}).
+// The sine transform is the cosine transform of (-1)^j x_j in reversed order.
+//
+// Points j = 1 .. n-1, between walls 0 and n. With u_j = x_j - x_{n-j} and w_j = x_j + x_{n-j}, j = 1 .. n/2,
+//   y_{2k} = 2 sum_{j<n/2} u_j sin(pi j 2k / n),   y_{2k+1} = 2 sum_{j<n/2} w_j sin(pi j (2k+1) / n) + (-1)^k w_{n/2}
+// (the last term if n is even: w counts x_{n/2} twice). If n is even the first is the transform of the points
+// between n/2 intervals, and the second the backward one of n/2 cells. That is repeated until n is odd or small,
+// where the sums are done as they stand: n^2 / 2 multiplications. All factors are at most 2; the well-known
+// transform by one FFT of period n and a running sum (Numerical Recipes, section 12.4) amplifies round-off near the
+// walls, as n / j.
+#include "line_transform.h"
+
+#include <fftw3.h>
+
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+
+#include "aligned_array.h"
+#include "lanes.h"
+#include "message.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+// FFTW's planner keeps global state: making and destroying plans must not overlap.
+std::mutex planner_mutex;
+
+fftw_complex* as_complex(double* block) {
+  return reinterpret_cast<fftw_complex*>(block);
+}
+
+}  // namespace
+
+struct LineTransform::Plan {
+  Plan(int n, int sign, double* in, double* out) {
+    const std::lock_guard lock(planner_mutex);
+    // ESTIMATE and not MEASURE: a measured plan depends on the load of the machine, and with the plan the order
+    // of the additions. This way a restart in another process gives the same bits, and so does every thread.
+    plan = fftw_plan_many_dft(1, &n, lanes / 2, as_complex(in), nullptr, lanes / 2, 1, as_complex(out), nullptr,
+                              lanes / 2, 1, sign, FFTW_ESTIMATE);
+    if (plan == nullptr) throw std::runtime_error(message("transform: FFTW made no plan for ", n, " points"));
+  }
+  ~Plan() {
+    const std::lock_guard lock(planner_mutex);
+    fftw_destroy_plan(plan);
+  }
+  Plan(const Plan&) = delete;
+  Plan& operator=(const Plan&) = delete;
+
+  fftw_plan plan;
+};
+
+LineTransform::LineTransform(int length, Basis basis, Direction direction)
+    : length_(length),
+      rows_(basis == Basis::sine_points ? length + 1 : length),
+      basis_(basis),
+      direction_(direction),
+      input_(length),
+      output_(length) {
+  if (basis == Basis::sine_points) {
+    plan_points();
+  } else {
+    plan_cells();
+  }
+}
+
+LineTransform::~LineTransform() = default;
+
+void LineTransform::plan_cells() {
+  const int n = length_;
+  for (int k = 0; k <= n / 2; ++k) {
+    cosine_.push_back(std::cos(0.5 * std::numbers::pi * k / n));
+    sine_.push_back(std::sin(0.5 * std::numbers::pi * k / n));
+  }
+  const bool forward = direction_ == Direction::forward;
+  auto& space = forward ? input_ : output_;
+  auto& modes = forward ? output_ : input_;
+  for (int i = 0; i < n; ++i) {
+    space[i].offset = lanes * (i % 2 == 0 ? i / 2 : n - 1 - i / 2);
+    modes[i].offset = lanes * (basis_ == Basis::sine_cells ? n - 1 - i : i);
+    if (basis_ == Basis::sine_cells && i % 2 == 1) space[i].sign = -1.0;
+  }
+  const AlignedArray in = allocate_aligned(block_size());
+  const AlignedArray out = allocate_aligned(block_size());
+  plan_ = std::make_unique<Plan>(n, forward ? FFTW_FORWARD : FFTW_BACKWARD, in.get(), out.get());
+}
+
+void LineTransform::plan_points() {
+  const int n = rows_;
+  for (int i = 0; i < length_; ++i) input_[i].offset = lanes * (i + 1);
+  if (n % 2 == 1 || n <= 16) {
+    output_ = input_;
+    for (int m = 0; m < 2 * n; ++m) sine_.push_back(2.0 * std::sin(std::numbers::pi * m / n));
+    return;
+  }
+  odd_modes_ = std::make_unique<LineTransform>(n / 2, Basis::sine_cells, Direction::backward);
+  even_modes_ = std::make_unique<LineTransform>(n / 2 - 1, Basis::sine_points, direction_);
+  for (int i = 0; i < length_; ++i) {  // mode i + 1
+    const LineTransform& half = i % 2 == 0 ? *odd_modes_ : *even_modes_;
+    output_[i] = half.output()[i / 2];
+    if (i % 2 == 0) output_[i].offset += lanes * (n / 2);
+  }
+}
+
+std::size_t LineTransform::block_size() const {
+  return static_cast<std::size_t>(lanes) * rows_;
+}
+
+double LineTransform::pair_factor(Basis basis, int length) {
+  return basis == Basis::sine_points ? 2.0 * (length + 1) : 2.0 * length;
+}
+
+void LineTransform::execute(double* block, double* result) const {
+  if (basis_ == Basis::sine_points) {
+    fold_points(block);
+    if (odd_modes_) {
+      const std::ptrdiff_t half = rows_ / 2 * lanes;
+      odd_modes_->execute(block + half, result + half);
+      even_modes_->execute(block, result);
+    } else {
+      sum_points(block, result);
+    }
+  } else {
+    if (direction_ == Direction::backward) prepare_cells(block);
+    fftw_execute_dft(plan_->plan, as_complex(block), as_complex(result));
+    if (direction_ == Direction::forward) finish_cells(result);
+  }
+}
+
+// u_j into row j and w_j into row n - j, which is where the transform of n/2 cells wants it.
+void LineTransform::fold_points(double* block) const {
+  for (int j = 1; j <= rows_ - j; ++j) {
+    double* low = block + lanes * j;
+    double* high = block + lanes * (rows_ - j);
+    for (int l = 0; l < lanes; l += 4) {
+      const Vector4 sum = load4(low + l) + load4(high + l);
+      store4(low + l, load4(low + l) - load4(high + l));
+      store4(high + l, sum);
+    }
+  }
+}
+
+// The sums for four modes at a time, to have enough that are independent: those of one parity from
+// first = 1, 2, 9, 10, 17, ...
+void LineTransform::sum_points(const double* block, double* result) const {
+  const int n = rows_;
+  for (int first = 1; first < n; first += first % 2 == 1 ? 1 : 7) {
+    const bool odd = first % 2 == 1;
+    std::array<std::array<Vector4, lanes / 4>, 4> sum{};
+    std::array<int, 4> phase{};  // j k modulo 2n
+    for (int j = 1; odd ? 2 * j <= n : 2 * j < n; ++j) {
+      const double* row = block + lanes * (odd ? n - j : j);
+      const double weight = 2 * j == n ? 0.5 : 1.0;
+      for (int m = 0; m < 4; ++m) {
+        phase[m] += first + 2 * m;
+        while (phase[m] >= 2 * n) phase[m] -= 2 * n;
+        const double factor = weight * sine_[phase[m]];
+        for (int l = 0; l < lanes / 4; ++l) sum[m][l] += factor * load4(row + 4 * l);
+      }
+    }
+    for (int m = 0; m < 4 && first + 2 * m < n; ++m) {
+      for (int l = 0; l < lanes / 4; ++l) store4(result + lanes * (first + 2 * m) + 4 * l, sum[m][l]);
+    }
+  }
+}
+
+void LineTransform::prepare_cells(double* block) const {
+  for (int k = 1; k <= rows_ - k; ++k) {
+    double* low = block + lanes * k;
+    double* high = block + lanes * (rows_ - k);
+    const double c = cosine_[k];
+    const double s = sine_[k];
+    for (int l = 0; l < lanes; l += 4) {
+      const Vector4 y_low = load4(low + l);
+      const Vector4 y_high = load4(high + l);
+      const Vector4 sum = c * y_low + s * y_high;
+      const Vector4 difference = times_i(s * y_low - c * y_high);
+      store4(low + l, sum + difference);
+      store4(high + l, sum - difference);
+    }
+  }
+}
+
+void LineTransform::finish_cells(double* block) const {
+  for (int l = 0; l < lanes; l += 4) store4(block + l, 2.0 * load4(block + l));
+  for (int k = 1; k <= rows_ - k; ++k) {
+    double* low = block + lanes * k;
+    double* high = block + lanes * (rows_ - k);
+    const double c = cosine_[k];
+    const double s = sine_[k];
+    for (int l = 0; l < lanes; l += 4) {
+      const Vector4 sum = load4(low + l) + load4(high + l);
+      const Vector4 difference = times_i(load4(low + l) - load4(high + l));
+      store4(low + l, c * sum - s * difference);
+      store4(high + l, s * sum + c * difference);
+    }
+  }
+}
+
+}  // namespace vesiflow::fluid
