@@ -115,19 +115,19 @@ TEST_P(Transform, OfPlanesTransformsBothAxesAndNothingElse) {
   }
 }
 
-TEST_P(Transform, ForwardThenBackwardMultipliesByThePairFactor) {
-  const auto [basis, direction] = GetParam();
-  if (direction == Direction::backward) GTEST_SKIP() << "done in the other direction";
+TEST(TransformPlan, ForwardThenBackwardMultipliesByThePairFactor) {
   const std::array extent{37, 96};
-  const TransformPlan forward(extent, {basis, basis}, Direction::forward);
-  const TransformPlan backward(extent, {basis, basis}, Direction::backward);
   const auto x = random_numbers(static_cast<std::size_t>(extent[0]) * extent[1]);
-  std::vector<double> y(x.size());
   const AlignedArray scratch = allocate_aligned(TransformPlan::scratch_size(extent));
-  forward.execute(x.data(), extent[0], y.data(), extent[0], scratch.get());
-  backward.execute(y.data(), extent[0], y.data(), extent[0], scratch.get());
-  const double factor = LineTransform::pair_factor(basis, extent[0]) * LineTransform::pair_factor(basis, extent[1]);
-  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(y[i] / factor, x[i], 4e-15);
+  for (const Basis basis : bases) {
+    const TransformPlan forward(extent, {basis, basis}, Direction::forward);
+    const TransformPlan backward(extent, {basis, basis}, Direction::backward);
+    std::vector<double> y(x.size());
+    forward.execute(x.data(), extent[0], y.data(), extent[0], scratch.get());
+    backward.execute(y.data(), extent[0], y.data(), extent[0], scratch.get());
+    const double factor = LineTransform::pair_factor(basis, extent[0]) * LineTransform::pair_factor(basis, extent[1]);
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(y[i] / factor, x[i], 4e-15) << static_cast<int>(basis);
+  }
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
