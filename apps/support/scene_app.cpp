@@ -46,7 +46,8 @@ Scene scene_of(const Arguments& arguments) {
 }
 
 void require_flow(const SceneApp& app, const Scene& scene, const std::string& file) {
-  if (scene.flow.type == app.flow || scene.flow.type == FlowType::custom) return;
+  flow_of(scene);  // refuses what only a program can give
+  if (scene.flow.type == app.flow) return;
   const bool shear = app.flow == FlowType::shear;
   throw SceneError(fmt::format("{}: flow.type = \"{}\": {} computes \"{}\" only; use the app {}", file,
                                shear ? "rest" : "shear", app.name, shear ? "shear" : "rest",

@@ -59,6 +59,7 @@ refused 2 'truncated.h5.*truncated' "$scene" "${small[@]}" --restart "$work/trun
 refused 2 'text.h5.*not HDF5' "$scene" "${small[@]}" --restart "$work/text.h5"
 refused 2 'written with fluid.reynolds_number' "$scene" "${small[@]}" --set fluid.reynolds_number=1 \
   --restart "$work/run/checkpoint.h5"
+refused 2 'flow.type = "custom".*own' "$scene" --set flow.type=custom
 refused 2 'use the app relaxation' "$scenes/relaxation_oblate.toml"
 
 # A folder that cannot be written: below a file.

@@ -108,6 +108,26 @@ TEST(TargetAreaUpdate, ConservesTheTotalAndIgnoresNormalSlip) {
   EXPECT_LT((unchanged / surface.area_weight() - 1).abs().maxCoeff(), 1e-13);
 }
 
+/// What dealiasing removes from U is no slip: the dealiased reference does not see it, the interpolated one does.
+TEST(TargetAreaUpdate, DealiasedSlipIgnoresHighDegrees) {
+  Surface surface(latitudes);
+  surface.update(prolate(surface.grid(), 0.8));
+  const VectorField motion = smooth_vector(surface.grid(), 5, 75);
+  VectorField noise = smooth_vector(surface.grid(), latitudes, 76), kept(noise.rows(), 3);
+  const SphericalHarmonics low(two_thirds_degrees(latitudes), surface.grid());
+  Coefficients coefficients(latitudes, 3);
+  low.analysis(noise, coefficients);
+  low.synthesis(coefficients, kept);
+  noise -= kept;
+  const auto change = [&](SlipReference reference) {
+    ScalarField areas = surface.area_weight();
+    TargetAreaUpdate(surface.grid(), reference).apply(surface, motion + noise, motion, 0.01, surface.area(), areas);
+    return (areas / surface.area_weight() - 1).abs().maxCoeff();
+  };
+  EXPECT_LT(change(SlipReference::dealiased), 1e-12);
+  EXPECT_GT(change(SlipReference::interpolated), 1e-6);
+}
+
 /// Markers sliding on a membrane at rest keep their strain: dA0 follows dA with an O(dt^2) error per step.
 TEST(TargetAreaUpdate, FollowsTheSlidingMesh) {
   const auto strain = [](double dt) {

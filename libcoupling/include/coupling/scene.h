@@ -20,7 +20,7 @@ enum class Shape { sphere, prolate, oblate, ellipsoid };
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
 struct VesicleScene {
   Shape shape = Shape::prolate;
-  std::optional<double> reduced_volume;       ///< of a prolate or oblate, in (0.3, 1]
+  std::optional<double> reduced_volume;       ///< of a prolate or oblate, in [0.3, 1]
   std::optional<double> aspect_ratio;         ///< of a prolate or oblate: long over short axis, >= 1
   std::optional<std::array<double, 3>> axes;  ///< of an ellipsoid: ratios of its axes along x, y, z
   double radius = 1.0;                        ///< effective radius (3V/4 pi)^(1/3)
