@@ -82,7 +82,7 @@ class Run {
   std::optional<VesicleSnapshots> vesicle_snapshots_;
   std::optional<FluidSnapshots> fluid_snapshots_;
   std::optional<std::filesystem::path> last_checkpoint_;
-  long checkpointed_step_ = 0;  // the start needs none
+  long checkpointed_step_ = -1;
   RunRecord record_;
 };
 
@@ -151,7 +151,8 @@ void Run::record(bool last) {
   if (wanted(output.diagnostics_every) && table_->last_step() < step) table_->write(simulation_);
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) vesicle_snapshots_->write(simulation_);
   if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) fluid_snapshots_->write(simulation_);
-  if (wanted(output.checkpoint_every) && checkpointed_step_ < step) checkpoint();
+  const bool at_start = step == 0 && !last;  // nothing to lose yet
+  if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step) checkpoint();
 }
 
 void Run::finish(const std::string& status) {

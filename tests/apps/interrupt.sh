@@ -6,13 +6,23 @@ shear_flow=$1
 scene=$2/tank_treading_coarse.toml
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-small=(--set domain.cells=32 --set mesh.latitudes=16 --set time.step=1/192 --set time.end=0.5 --quiet --threads 2)
+small=(--set domain.cells=32 --set mesh.latitudes=16 --set time.step=1/192 --set time.end=2 --quiet --threads 2)
+
+# Waits until a run under way has written a file: it is then between its first and its last step.
+wait_for() {
+  for _ in $(seq 1 600); do
+    [[ -e $1 ]] && return
+    sleep 0.05
+  done
+  echo "FAILED: $1 did not appear"
+  exit 1
+}
 
 "$shear_flow" "$scene" "${small[@]}" --out "$work/whole"
 
 "$shear_flow" "$scene" "${small[@]}" --out "$work/stopped" &
 run=$!
-sleep 0.4
+wait_for "$work/stopped/diagnostics.csv"
 kill -TERM "$run"
 status=0
 wait "$run" || status=$?
@@ -29,7 +39,7 @@ cmp "$work/whole/checkpoint.h5" "$work/stopped/checkpoint.h5" ||
 "$shear_flow" "$scene" "${small[@]}" --set output.checkpoint_every=0.02 --set output.vesicle_every=0.02 \
   --out "$work/killed" &
 run=$!
-sleep 0.5
+wait_for "$work/killed/checkpoint.h5"
 kill -KILL "$run"
 wait "$run" 2>/dev/null || true
 "$shear_flow" "$scene" "${small[@]}" --set output.checkpoint_every=0.02 --set output.vesicle_every=0.02 \
