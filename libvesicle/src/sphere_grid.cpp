@@ -8,11 +8,15 @@
 
 namespace vesiflow::vesicle {
 
-SphereGrid::SphereGrid(int latitudes) : latitudes_(latitudes) {
-  check_argument(latitudes >= 4, "latitudes", latitudes, ">= 4");
+SphereGrid::SphereGrid(int latitudes) : SphereGrid(latitudes, 2 * latitudes) {}
+
+SphereGrid::SphereGrid(int latitudes, int longitudes) : latitudes_(latitudes), longitudes_(longitudes) {
+  check_argument(latitudes >= 2, "latitudes", latitudes, ">= 2");
+  check_argument(longitudes >= 2 * latitudes && longitudes % 2 == 0, "longitudes", longitudes,
+                 "even and at least twice the latitudes");
   const GaussLegendre rule = gauss_legendre(latitudes);
   for (ScalarField* field : {&colatitude_, &sin_, &cos_, &weight_, &parameter_measure_}) field->resize(latitudes);
-  const long double spacing = std::numbers::pi_v<long double> / latitudes;
+  const long double spacing = 2 * std::numbers::pi_v<long double> / longitudes;
   for (int j = 0; j < latitudes; ++j) {
     // Functions of the unrounded node: the far half of (0, pi) would otherwise lose relative accuracy in the
     // sine.
@@ -27,7 +31,7 @@ SphereGrid::SphereGrid(int latitudes) : latitudes_(latitudes) {
 }
 
 double SphereGrid::longitude_spacing() const {
-  return std::numbers::pi / latitudes_;
+  return 2 * std::numbers::pi / longitudes_;
 }
 
 }  // namespace vesiflow::vesicle

@@ -52,7 +52,9 @@ TEST(SphereGrid, NumbersLongitudesFastest) {
 }
 
 TEST(SphereGrid, RefusesTooFewLatitudes) {
-  EXPECT_THROW(SphereGrid(3), std::invalid_argument);
+  EXPECT_THROW(SphereGrid(1), std::invalid_argument);
+  EXPECT_THROW(SphereGrid(8, 14), std::invalid_argument);
+  EXPECT_THROW(SphereGrid(8, 17), std::invalid_argument);
 }
 
 }  // namespace

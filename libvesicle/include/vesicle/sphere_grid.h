@@ -6,19 +6,26 @@ namespace vesiflow::vesicle {
 
 /// Gauss-Legendre colatitudes by equispaced longitudes on the parameter sphere, poles excluded:
 ///   theta_j with cos(theta_j) the nodes of Gauss-Legendre quadrature, 0 < theta_0 < ... < theta_{N-1} < pi,
-///   phi_i = 2 pi i / N_phi, i = 0 .. N_phi - 1, N_phi = 2 N.
+///   phi_i = 2 pi i / N_phi, i = 0 .. N_phi - 1, N_phi = 2 N unless stated, always even and >= 2 N - 1.
 /// sum_ij w_j dphi f_ij integrates spherical harmonics of degree up to 2N - 1 exactly over the unit sphere.
 ///
 /// Nodes come from Newton's method in theta (not the arccosine of a rounded cosine) in extended precision:
 /// the geometry near the poles inherits the relative accuracy of sin(theta).
 class SphereGrid {
  public:
-  /// @throws std::invalid_argument unless latitudes >= 4.
+  /// N_phi = 2 latitudes.
+  /// @throws std::invalid_argument unless latitudes >= 2.
   explicit SphereGrid(int latitudes);
+  /// @throws std::invalid_argument unless latitudes >= 2 and longitudes is even and >= 2 latitudes.
+  SphereGrid(int latitudes, int longitudes);
 
   int latitudes() const { return latitudes_; }
-  int longitudes() const { return 2 * latitudes_; }
-  Eigen::Index size() const { return Eigen::Index{2} * latitudes_ * latitudes_; }
+  int longitudes() const { return longitudes_; }
+  Eigen::Index size() const { return Eigen::Index{latitudes_} * longitudes_; }
+
+  friend bool operator==(const SphereGrid& a, const SphereGrid& b) {
+    return a.latitudes_ == b.latitudes_ && a.longitudes_ == b.longitudes_;
+  }
 
   /// Marker number of longitude i and colatitude j.
   Eigen::Index index(int i, int j) const { return Eigen::Index{j} * longitudes() + i; }
@@ -40,6 +47,7 @@ class SphereGrid {
 
  private:
   int latitudes_;
+  int longitudes_;
   ScalarField colatitude_, sin_, cos_, weight_, parameter_measure_;
 };
 
