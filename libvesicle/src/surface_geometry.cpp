@@ -15,11 +15,14 @@ SurfaceGeometry::SurfaceGeometry(const SphereGrid& grid) {
 
 void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coefficients& positions,
                              GeometryDetail detail) {
-  has_curvature_ = false;
-  harmonics.gradient(positions, theta_, phi_);
+  has_curvature_ = detail == GeometryDetail::curvature;
+  if (has_curvature_)
+    harmonics.derivatives(positions, theta_, phi_, theta_theta_, theta_phi_, phi_phi_);
+  else
+    harmonics.gradient(positions, theta_, phi_);
   update_first_form();
   check_area_elements();
-  if (detail == GeometryDetail::curvature) add_curvature(harmonics, positions);
+  if (has_curvature_) update_second_form();
 }
 
 void SurfaceGeometry::add_curvature(const SphericalHarmonics& harmonics, const Coefficients& positions) {
