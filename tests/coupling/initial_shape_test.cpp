@@ -1,5 +1,6 @@
 // Shapes as scenes ask for them, and their files.
 #include <gtest/gtest.h>
+#include <omp.h>
 #include <unistd.h>
 
 #include <Eigen/Geometry>
@@ -32,8 +33,12 @@ class InitialShapeTest : public testing::Test {
                                              testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "shapes");
+    omp_set_num_threads(1);  // the runs are too small for more
   }
-  ~InitialShapeTest() override { fs::remove_all(folder_); }
+  ~InitialShapeTest() override {
+    omp_set_num_threads(threads_);
+    fs::remove_all(folder_);
+  }
 
   void write(const char* file, const std::string& text) const { std::ofstream(folder_ / file) << text; }
 
@@ -77,6 +82,7 @@ rotation_deg = 40
   }
 
   fs::path folder_;
+  int threads_ = omp_get_max_threads();
 };
 
 const vesicle::Placement placement{
