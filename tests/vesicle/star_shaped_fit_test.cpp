@@ -33,7 +33,8 @@ double phi_of(const Vector3& d) {
   return std::atan2(d.y(), d.x());
 }
 
-/// Random coefficients of even degree, hence a surface with a centre of symmetry, which then is the centroid of the mesh.
+/// Random coefficients of even degree, hence a surface with a centre of symmetry, which then is the centroid of the
+/// mesh.
 Coefficients symmetric_radius(int degrees) {
   Coefficients radius = testing::random_coefficients(degrees, 1, 17);
   for (int n = 0; n < degrees; ++n)
@@ -85,8 +86,8 @@ TEST(StarShapedFit, RecoversABandLimitedRadiusToRoundOff) {
     }
 }
 
-/// The radius of a spheroid of axes 1:1:2, (1 - 3/4 cos^2)^(-1/2), has its singularities at cos = 2/sqrt(3): the degrees
-/// of its expansion fall off like (1/sqrt(3))^n, by 9 in four degrees.
+/// The radius of a spheroid of axes 1:1:2, (1 - 3/4 cos^2)^(-1/2), has its singularities at cos = 2/sqrt(3): the
+/// degrees of its expansion fall off like (1/sqrt(3))^n, by 9 in four degrees.
 TEST(StarShapedFit, ConvergesOnTheSpheroidAtTheRateOfItsSingularity) {
   const TriangleMesh mesh = star(4, [](const Vector3& d) { return 1 / std::sqrt(1 - 0.75 * d.z() * d.z()); });
   double previous = fit_star_shaped(mesh, 6).rms_residual;
@@ -113,8 +114,9 @@ TEST(StarShapedFit, ResidualMeasuresTheNoiseOfTheVertices) {
   EXPECT_LT(fit.max_residual, 6e-3);
 }
 
-/// With weights that make the sum over the vertices an integral over all directions, what the fitted degrees cannot express
-/// is left out and does not leak into them, however unevenly the vertices lie: to second order in the size of triangles.
+/// With weights that make the sum over the vertices an integral over all directions, what the fitted degrees cannot
+/// express is left out and does not leak into them, however unevenly the vertices lie: to second order in the size of
+/// triangles.
 TEST(StarShapedFit, IsTheProjectionOnTheDegreesWhateverTheSpacingOfVertices) {
   const auto leak = [](int times) {
     TriangleMesh mesh = octasphere(times);

@@ -11,7 +11,8 @@ namespace vesiflow::coupling {
 /// \throws FileError when it cannot be written
 void write_checkpoint(const std::filesystem::path& file, const Simulation& simulation);
 
-/// The scene a checkpoint was made with, the surfaces of shapes from files included: those files need not exist any more.
+/// The scene a checkpoint was made with, the surfaces of shapes from files included: those files need not exist any
+/// more.
 /// \throws SceneError when the file cannot be read or an override is refused
 Scene read_checkpoint_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 
