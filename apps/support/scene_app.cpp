@@ -41,8 +41,7 @@ void declare(CLI::App& command_line, Arguments& arguments) {
 Scene scene_of(const Arguments& arguments) {
   if (!arguments.scene.empty()) return load_scene(arguments.scene, arguments.overrides);
   if (arguments.checkpoint.empty()) throw SceneError("a scene file is needed (or --restart with a checkpoint)");
-  const Scene stored = read_checkpoint_scene(arguments.checkpoint);
-  return parse_scene(to_toml(stored), arguments.checkpoint, arguments.overrides);
+  return read_checkpoint_scene(arguments.checkpoint, arguments.overrides);
 }
 
 void require_flow(const SceneApp& app, const Scene& scene, const std::string& file) {

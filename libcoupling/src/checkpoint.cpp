@@ -7,6 +7,7 @@
 #include "atomic_file.h"
 #include "coupling/errors.h"
 #include "hdf5_file.h"
+#include "scene_file.h"
 #include "scene_keys.h"
 
 namespace vesiflow::coupling {
@@ -85,6 +86,16 @@ bool may_differ(const std::string& key) {
   return key == "title" || key == "time.end" || key.starts_with("limits.") || key.starts_with("output.");
 }
 
+bool same_surface(const std::optional<vesicle::Coefficients>& a, const std::optional<vesicle::Coefficients>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  if (a->degrees() != b->degrees()) return false;
+  for (int field = 0; field < 3; ++field)
+    for (int n = 0; n < a->degrees(); ++n)
+      for (int m = 0; m <= n; ++m)
+        if ((*a)(field, n, m) != (*b)(field, n, m)) return false;
+  return true;
+}
+
 void check_same_scene(const Scene& written, const Scene& now, const std::filesystem::path& path) {
   const auto before = scene_values(written), after = scene_values(now);
   for (const auto& [key, value] : before) {
@@ -97,16 +108,56 @@ void check_same_scene(const Scene& written, const Scene& now, const std::filesys
                       "time.end, limits and output",
                       path.string(), key, value, other_value));
   }
+  for (std::size_t i = 0; i < std::min(written.vesicles.size(), now.vesicles.size()); ++i)
+    if (!same_surface(written.vesicles[i].surface, now.vesicles[i].surface))
+      throw SceneError(
+          fmt::format("{}: was written with another surface in vesicles.{}.file; restart without the scene "
+                      "file, or give back the old file",
+                      path.string(), i));
   if (after.size() > before.size())
     throw SceneError(fmt::format("{}: was written with {} vesicles, this scene has {}", path.string(),
                                  written.vesicles.size(), now.vesicles.size()));
 }
 
-Scene scene_of(const Hdf5File& file, const std::filesystem::path& path) {
+std::string surface_name(std::size_t vesicle) {
+  return fmt::format("/vesicle_{}/initial_surface", vesicle);
+}
+
+// A row of 3 fields times real and imaginary part for each (n, m): n ascending, m = 0 .. n.
+void write_surface(Hdf5File& file, const std::string& name, const vesicle::Coefficients& surface) {
+  std::vector<double> values;
+  for (int n = 0; n < surface.degrees(); ++n)
+    for (int m = 0; m <= n; ++m)
+      for (int field = 0; field < 3; ++field) {
+        values.push_back(surface(field, n, m).real());
+        values.push_back(surface(field, n, m).imag());
+      }
+  file.write(name, values.data(), {values.size() / 6, 3, 2});
+}
+
+vesicle::Coefficients read_surface(const Hdf5File& file, const std::string& name, const std::filesystem::path& path) {
+  const std::vector<double> values = file.read(name);
+  int degrees = 1;
+  while (std::size_t(degrees) * std::size_t(degrees + 1) * 3 < values.size()) ++degrees;
+  vesicle::Coefficients surface(degrees, 3);
+  if (std::size_t(degrees) * std::size_t(degrees + 1) * 3 != values.size())
+    throw FileError(fmt::format("{}: {} has {} values, no number of degrees has that many: the checkpoint is damaged",
+                                path.string(), name, values.size()));
+  const double* value = values.data();
+  for (int n = 0; n < degrees; ++n)
+    for (int m = 0; m <= n; ++m)
+      for (int field = 0; field < 3; ++field, value += 2) surface(field, n, m) = {value[0], value[1]};
+  return surface;
+}
+
+Scene scene_of(const Hdf5File& file, const std::filesystem::path& path, const Overrides& overrides = {}) {
   if (file.read_integer("/", "format") != format_version)
     throw FileError(fmt::format("{}: checkpoint of format {}, this version reads format {}", path.string(),
                                 file.read_integer("/", "format"), format_version));
-  return parse_scene(file.read_text("/", "scene"), path.string());
+  return parse_scene(file.read_text("/", "scene"), path.string(), overrides, [&](Scene& scene) {
+    for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+      if (file.exists(surface_name(i))) scene.vesicles[i].surface = read_surface(file, surface_name(i), path);
+  });
 }
 
 // To a reader an unusable checkpoint is bad input, like a wrong scene: nothing of the user's has been touched.
@@ -152,11 +203,13 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
     write_field(file, "/pressure", state.pressure);
     for (std::size_t i = 0; i < state.vesicles.size(); ++i)
       write_vesicle(file, fmt::format("/vesicle_{}", i), state.vesicles[i]);
+    for (std::size_t i = 0; i < simulation.scene().vesicles.size(); ++i)
+      if (const auto& surface = simulation.scene().vesicles[i].surface) write_surface(file, surface_name(i), *surface);
   });
 }
 
-Scene read_checkpoint_scene(const std::filesystem::path& path) {
-  return as_input([&] { return scene_of(Hdf5File(path, Hdf5File::Mode::read), path); });
+Scene read_checkpoint_scene(const std::filesystem::path& path, const Overrides& overrides) {
+  return as_input([&] { return scene_of(Hdf5File(path, Hdf5File::Mode::read), path, overrides); });
 }
 
 void restore_checkpoint(const std::filesystem::path& path, Simulation& simulation) {

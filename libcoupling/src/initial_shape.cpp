@@ -1,6 +1,7 @@
 #include "initial_shape.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <Eigen/Geometry>
 #include <numbers>
@@ -8,7 +9,10 @@
 #include "coupling/errors.h"
 #include "vesicle/shapes.h"
 #include "vesicle/sphere_grid.h"
+#include "vesicle/star_shaped_fit.h"
 #include "vesicle/surface.h"
+#include "vesicle/surface_file.h"
+#include "vesicle/triangle_mesh_file.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -39,7 +43,47 @@ bool meets(const vesicle::Surface& surface, const vesicle::VectorField& markers)
   return false;
 }
 
+vesicle::Coefficients fitted_mesh(const std::string& file, int degrees, const std::string& key) {
+  const vesicle::StarShapedFit fit = vesicle::fit_star_shaped(vesicle::read_triangle_mesh(file), degrees);
+  spdlog::info("{}: the surface of {} degrees misses the vertices by {:.2g} of the mean radius (rms), {:.2g} at most",
+               key, degrees, fit.rms_residual, fit.max_residual);
+  return fit.surface;
+}
+
 }  // namespace
+
+void load_surfaces(Scene& scene, const std::string& name) {
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    VesicleScene& vesicle = scene.vesicles[i];
+    if (!vesicle.file) continue;
+    const std::string key = fmt::format("{}: vesicles.{}.file", name, i);
+    try {
+      if (vesicle.shape == Shape::coefficients) vesicle.surface = vesicle::read_surface_coefficients(*vesicle.file);
+      if (vesicle.shape == Shape::mesh && vesicle.fit_degrees)
+        vesicle.surface = fitted_mesh(*vesicle.file, *vesicle.fit_degrees, key);
+    } catch (const std::invalid_argument& error) {
+      throw SceneError(fmt::format("{}: vesicles.{}.fit_degrees: {}", name, i, error.what()));
+    } catch (const std::domain_error& error) {
+      throw SceneError(fmt::format("{} = \"{}\": {}", key, *vesicle.file, error.what()));
+    } catch (const std::runtime_error& error) {
+      throw SceneError(fmt::format("{}: {}", key, error.what()));
+    }
+  }
+}
+
+vesicle::VectorField checked_markers(const Scene& scene, std::size_t i, const std::string& name) {
+  const VesicleScene& vesicle = scene.vesicles[i];
+  try {
+    vesicle::VectorField markers = initial_markers(vesicle, scene.mesh.latitudes);
+    // The others are always surfaces.
+    const bool is_free_form = vesicle.shape == Shape::harmonics || vesicle.surface;
+    if (is_free_form) vesicle::Surface(scene.mesh.latitudes).update(markers);
+    return markers;
+  } catch (const std::logic_error& error) {
+    const char* key = vesicle.file ? "file" : vesicle.shape == Shape::harmonics ? "harmonics" : "shape";
+    throw SceneError(fmt::format("{}: vesicles.{}.{}: {}", name, i, key, error.what()));
+  }
+}
 
 vesicle::VectorField initial_markers(const VesicleScene& scene, int latitudes) {
   const vesicle::SphereGrid grid(latitudes);
@@ -58,6 +102,13 @@ vesicle::VectorField initial_markers(const VesicleScene& scene, int latitudes) {
                                   : vesicle::spheroid(grid, 1.0 / *scene.aspect_ratio, placement);
     case Shape::ellipsoid:
       return vesicle::ellipsoid(grid, vesicle::Vector3(scene.axes->data()), placement);
+    case Shape::biconcave:
+      return vesicle::biconcave_disc(grid, placement);
+    case Shape::harmonics:
+      return vesicle::perturbed_sphere(grid, scene.harmonics, placement);
+    case Shape::coefficients:
+    case Shape::mesh:
+      return vesicle::shape_from_coefficients(grid, *scene.surface, placement);
     case Shape::sphere:
       break;
   }

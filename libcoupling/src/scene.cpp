@@ -68,7 +68,7 @@ void check_tension(const Scene& scene, const std::string& name) {
                     name, *scene.membrane.g, scene.membrane.sigma0, meant));
 }
 
-void check_vesicle_keys(const VesicleScene& vesicle, const std::string& key, const std::string& name) {
+void check_vesicle_keys(const VesicleScene& vesicle, int latitudes, const std::string& key, const std::string& name) {
   const bool spheroid = vesicle.shape == Shape::prolate || vesicle.shape == Shape::oblate;
   const int given = (vesicle.reduced_volume ? 1 : 0) + (vesicle.aspect_ratio ? 1 : 0);
   if (spheroid && given != 1)
@@ -79,16 +79,31 @@ void check_vesicle_keys(const VesicleScene& vesicle, const std::string& key, con
         fmt::format("{}: {}: reduced_volume and aspect_ratio belong to prolate and oblate shapes; an "
                     "ellipsoid takes axes, a sphere nothing",
                     name, key));
-  if ((vesicle.shape == Shape::ellipsoid) != vesicle.axes.has_value())
+  const bool from_file = vesicle.shape == Shape::coefficients || vesicle.shape == Shape::mesh;
+  const auto go_together = [&](bool shape, bool is_given, const char* what, const char* shapes) {
+    if (shape != is_given)
+      throw SceneError(fmt::format("{}: {}: {} goes with shape = {}, and only with it", name, key, what, shapes));
+  };
+  go_together(vesicle.shape == Shape::ellipsoid, vesicle.axes.has_value(), "axes = [a, b, c]", "\"ellipsoid\"");
+  go_together(vesicle.shape == Shape::harmonics, !vesicle.harmonics.empty(),
+              "harmonics = [[degree, order, amplitude], ...]", "\"harmonics\"");
+  go_together(from_file, vesicle.file || vesicle.surface, "file = \"...\"", "\"coefficients\" or \"mesh\"");
+  go_together(vesicle.shape == Shape::mesh, vesicle.fit_degrees.has_value(), "fit_degrees", "\"mesh\"");
+  if (from_file && !vesicle.surface)
     throw SceneError(
-        fmt::format("{}: {}: axes = [a, b, c] goes with shape = \"ellipsoid\", and only with it", name, key));
+        fmt::format("{}: {}.file = \"{}\": has not been read; a program that fills a scene itself sets "
+                    "VesicleScene::surface",
+                    name, key, *vesicle.file));
+  if (vesicle.fit_degrees && *vesicle.fit_degrees >= latitudes)
+    throw SceneError(fmt::format("{}: {}.fit_degrees = {}: must be below mesh.latitudes = {}", name, key,
+                                 *vesicle.fit_degrees, latitudes));
   const auto& a = vesicle.rotation_axis;
   if (!(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > 0.0))
     throw SceneError(fmt::format("{}: {}.rotation_axis = [0, 0, 0]: must not vanish", name, key));
 }
 
 void check_inside_box(const Scene& scene, std::size_t i, const std::string& name) {
-  const vesicle::VectorField markers = initial_markers(scene.vesicles[i], scene.mesh.latitudes);
+  const vesicle::VectorField markers = checked_markers(scene, i, name);
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = static_cast<std::size_t>(axis);
     const double h = (scene.domain.upper[u] - scene.domain.lower[u]) / scene.domain.cells[u];
@@ -129,7 +144,7 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_time(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
-    check_vesicle_keys(scene.vesicles[i], fmt::format("vesicles.{}", i), name);
+    check_vesicle_keys(scene.vesicles[i], scene.mesh.latitudes, fmt::format("vesicles.{}", i), name);
     check_inside_box(scene, i, name);
   }
   check_apart(scene, name);

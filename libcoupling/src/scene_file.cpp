@@ -12,6 +12,8 @@
 
 #include "coupling/errors.h"
 #include "coupling/scene.h"
+#include "initial_shape.h"
+#include "scene_file.h"
 #include "scene_keys.h"
 
 namespace vesiflow::coupling {
@@ -129,6 +131,10 @@ class Reader final : public KeyVisitor {
     }
   }
 
+  void optional_text(std::string_view key, std::optional<std::string>& value) override {
+    if (find(key) != nullptr) text(key, value.emplace());
+  }
+
   void flag(std::string_view key, bool& value) override {
     if (const toml::node* node = find(key)) {
       if (!node->is_boolean()) refuse(key, *node, "must be true or false");
@@ -145,6 +151,10 @@ class Reader final : public KeyVisitor {
   }
 
   void integer(std::string_view key, int& value, const Range& range) override {
+    if (const toml::node* node = find(key)) value = checked_integer(key, *node, *node, range);
+  }
+
+  void optional_integer(std::string_view key, std::optional<int>& value, const Range& range) override {
     if (const toml::node* node = find(key)) value = checked_integer(key, *node, *node, range);
   }
 
@@ -168,6 +178,15 @@ class Reader final : public KeyVisitor {
     }
   }
 
+  void harmonics(std::string_view key, std::vector<vesicle::Harmonic>& value) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    value.clear();
+    if (node->is_array())
+      for (const toml::node& term : *node->as_array()) value.push_back(checked_harmonic(key, *node, term));
+    if (value.empty()) refuse(key, *node, harmonics_form);
+  }
+
   void choice(std::string_view key, int& value, std::span<const std::string_view> names) override {
     const toml::node* node = find(key);
     if (node == nullptr) return;
@@ -178,6 +197,9 @@ class Reader final : public KeyVisitor {
   }
 
  private:
+  static constexpr const char* harmonics_form =
+      "must be a list of [degree, order, amplitude], such as [[2, 0, 0.1], [3, -2, 0.05]]";
+
   const toml::node* find(std::string_view key) {
     const std::string full = prefix_ + std::string(key);
     known_.insert(full);
@@ -228,6 +250,16 @@ class Reader final : public KeyVisitor {
     return value;
   }
 
+  vesicle::Harmonic checked_harmonic(std::string_view key, const toml::node& whole, const toml::node& term) const {
+    if (!term.is_array() || term.as_array()->size() != 3) refuse(key, whole, harmonics_form);
+    const toml::array& entries = *term.as_array();
+    if (!entries[0].is_integer() || !entries[1].is_integer()) refuse(key, whole, harmonics_form);
+    constexpr int largest_degree = 256;
+    const int degree = checked_integer(key, whole, entries[0], Range::between(0, largest_degree));
+    return {degree, checked_integer(key, whole, entries[1], Range::between(-degree, degree)),
+            checked(key, whole, entries[2], Range::any())};
+  }
+
   const Document& document_;
   std::string prefix_;
   std::set<std::string>& known_;
@@ -266,9 +298,16 @@ void read_vesicles(Document& document, Scene& scene, const std::string& name) {
   }
 }
 
+// Files are named relative to the folder of the scene.
+std::string absolute_file(const std::string& file, const std::string& scene_name) {
+  const std::filesystem::path folder = std::filesystem::path(scene_name).parent_path();
+  return std::filesystem::absolute(folder / file).lexically_normal().string();
+}
+
 }  // namespace
 
-Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
+Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides,
+                  const std::function<void(Scene&)>& load_surfaces) {
   Document document(text, name, overrides);
   Scene scene;
   std::set<std::string> known;
@@ -281,9 +320,16 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
 
   if (scene.membrane.g && document.find("membrane.sigma0") == nullptr)
     scene.membrane.sigma0 = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
+  for (VesicleScene& vesicle : scene.vesicles)
+    if (vesicle.file) vesicle.file = absolute_file(*vesicle.file, name);
+  load_surfaces(scene);
   check_scene(scene, name);
   scene.membrane.g.reset();  // said; sigma0 is what counts from here on
   return scene;
+}
+
+Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides) {
+  return parse_scene(text, name, overrides, [&name](Scene& scene) { load_surfaces(scene, name); });
 }
 
 Scene load_scene(const std::filesystem::path& file, const Overrides& overrides) {

@@ -98,10 +98,14 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
 }
 
 void visit_keys(VesicleScene& vesicle, KeyVisitor& v) {
-  choice_of(v, "shape", vesicle.shape, {"sphere", "prolate", "oblate", "ellipsoid"});
+  choice_of(v, "shape", vesicle.shape,
+            {"sphere", "prolate", "oblate", "ellipsoid", "biconcave", "harmonics", "coefficients", "mesh"});
   v.optional_number("reduced_volume", vesicle.reduced_volume, {.low = 0.3, .high = 1.0});
   v.optional_number("aspect_ratio", vesicle.aspect_ratio, Range::between(1.0, 20.0));
   v.optional_vector("axes", vesicle.axes, Range::positive());
+  v.harmonics("harmonics", vesicle.harmonics);
+  v.optional_text("file", vesicle.file);
+  v.optional_integer("fit_degrees", vesicle.fit_degrees, Range::between(2, 64));
   v.number("radius", vesicle.radius, Range::positive());
   v.vector("centre", vesicle.centre, Range::any());
   v.vector("rotation_axis", vesicle.rotation_axis, Range::any());

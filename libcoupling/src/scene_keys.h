@@ -37,14 +37,18 @@ class KeyVisitor {
  public:
   virtual ~KeyVisitor() = default;
   virtual void text(std::string_view key, std::string& value) = 0;
+  virtual void optional_text(std::string_view key, std::optional<std::string>& value) = 0;
   virtual void flag(std::string_view key, bool& value) = 0;
   virtual void number(std::string_view key, double& value, const Range& range) = 0;
   virtual void optional_number(std::string_view key, std::optional<double>& value, const Range& range) = 0;
   virtual void integer(std::string_view key, int& value, const Range& range) = 0;
+  virtual void optional_integer(std::string_view key, std::optional<int>& value, const Range& range) = 0;
   virtual void vector(std::string_view key, std::array<double, 3>& value, const Range& range) = 0;
   virtual void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
                                const Range& range) = 0;
   virtual void cells(std::string_view key, std::array<int, 3>& value, const Range& range) = 0;
+  /// A list of [degree, order, amplitude]; absent when empty.
+  virtual void harmonics(std::string_view key, std::vector<vesicle::Harmonic>& value) = 0;
   /// `value` is an index into `names`.
   virtual void choice(std::string_view key, int& value, std::span<const std::string_view> names) = 0;
 };

@@ -25,10 +25,22 @@ std::string array_of(const std::array<double, 3>& v) {
   return fmt::format("[{}, {}, {}]", toml_number(v[0]), toml_number(v[1]), toml_number(v[2]));
 }
 
+// Empty where there are none: the key is then left out.
+std::string array_of(const std::vector<vesicle::Harmonic>& terms) {
+  std::string text;
+  for (const vesicle::Harmonic& term : terms)
+    text +=
+        fmt::format("{}[{}, {}, {}]", text.empty() ? "[" : ", ", term.degree, term.order, toml_number(term.amplitude));
+  return text.empty() ? "" : text + "]";
+}
+
 // Shows every key with its value as TOML text and its limits in words.
 class Lister : public KeyVisitor {
  public:
   void text(std::string_view key, std::string& value) override { show(key, toml_string(value), "text"); }
+  void optional_text(std::string_view key, std::optional<std::string>& value) override {
+    show(key, value ? toml_string(*value) : "", "text");
+  }
   void flag(std::string_view key, bool& value) override { show(key, value ? "true" : "false", "true, false"); }
   void number(std::string_view key, double& value, const Range& range) override {
     show(key, toml_number(value), range.describe());
@@ -39,6 +51,9 @@ class Lister : public KeyVisitor {
   void integer(std::string_view key, int& value, const Range& range) override {
     show(key, fmt::format("{}", value), range.describe());
   }
+  void optional_integer(std::string_view key, std::optional<int>& value, const Range& range) override {
+    show(key, value ? fmt::format("{}", *value) : "", range.describe());
+  }
   void vector(std::string_view key, std::array<double, 3>& value, const Range& range) override {
     show(key, array_of(value), range.describe());
   }
@@ -47,6 +62,9 @@ class Lister : public KeyVisitor {
   }
   void cells(std::string_view key, std::array<int, 3>& value, const Range& range) override {
     show(key, fmt::format("[{}, {}, {}]", value[0], value[1], value[2]), range.describe());
+  }
+  void harmonics(std::string_view key, std::vector<vesicle::Harmonic>& value) override {
+    show(key, array_of(value), "a list of [degree, order, amplitude]");
   }
   void choice(std::string_view key, int& value, std::span<const std::string_view> names) override {
     show(key, toml_string(names[static_cast<std::size_t>(value)]), fmt::format("{}", fmt::join(names, ", ")));

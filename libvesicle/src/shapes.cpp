@@ -94,8 +94,8 @@ struct EnclosedMoments {
   Vector3 centroid = Vector3::Zero();
 };
 
-/// Exact quadrature of (1/3) int X . N and (1/2) int |X|^2 N over the parameter sphere, N = X_theta x X_phi/sin(theta), about
-/// the mean of X; with degrees < p they have degrees <= 3 (p - 1) and <= 4 (p - 1).
+/// Exact quadrature of (1/3) int X . N and (1/2) int |X|^2 N over the parameter sphere, N = X_theta x X_phi/sin(theta),
+/// about the mean of X; with degrees < p they have degrees <= 3 (p - 1) and <= 4 (p - 1).
 EnclosedMoments enclosed_moments(const Coefficients& coefficients) {
   const SphereGrid grid(2 * coefficients.degrees());
   const SphericalHarmonics harmonics(coefficients.degrees(), grid);

@@ -53,8 +53,8 @@ void check_corners(const TriangleMesh& mesh) {
   if (unused != is_used.end()) refuse("vertex " + number(unused - is_used.begin()) + " belongs to no triangle");
 }
 
-/// The triangle across an edge, and whether both run along the edge in opposite directions, as neighbours on an oriented
-/// surface do.
+/// The triangle across an edge, and whether both run along the edge in opposite directions, as neighbours on an
+/// oriented surface do.
 struct Neighbour {
   Eigen::Index triangle = 0;
   bool agrees = true;
@@ -93,7 +93,8 @@ Neighbours neighbours_of(const TriangleMesh& mesh) {
   return neighbours;
 }
 
-/// Walks over the whole surface, turning triangles around where they disagree with the neighbour they were reached from.
+/// Walks over the whole surface, turning triangles around where they disagree with the neighbour they were reached
+/// from.
 void check_one_oriented_component(const Neighbours& neighbours) {
   enum class Turn { unknown, as_is, reversed };
   const auto opposite = [](Turn turn) { return turn == Turn::as_is ? Turn::reversed : Turn::as_is; };
@@ -166,7 +167,8 @@ void check_closed_genus_zero(const TriangleMesh& mesh) {
 }
 
 EnclosedVolume enclosed_volume(const TriangleMesh& mesh) {
-  // About a point of the surface's box: sums of nearly equal terms of either sign would lose digits far from the origin.
+  // About a point of the surface's box: sums of nearly equal terms of either sign would lose digits far from the
+  // origin.
   const Vector3 origin = mesh.vertices.colwise().mean().matrix().transpose();
   EnclosedVolume result;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {

@@ -41,8 +41,8 @@ TEST(SurfaceFile, LinesLeftOutAreZeroAndComeInAnyOrder) {
   EXPECT_EQ(read.energy(0, 3), 1 + 4 + 2 * 25);
 }
 
-/// The unit sphere by hand in the documented convention: x and y from Y_1^1 = sqrt(3/(8 pi)) sin(theta) exp(i phi) by 2 Re(c Y) and 2 Re(-i c Y), z from
-/// Y_1^0 = sqrt(3/(4 pi)) cos(theta).
+/// The unit sphere by hand in the documented convention: x and y from Y_1^1 = sqrt(3/(8 pi)) sin(theta) exp(i phi) by 2
+/// Re(c Y) and 2 Re(-i c Y), z from Y_1^0 = sqrt(3/(4 pi)) cos(theta).
 TEST(SurfaceFile, ConventionIsTheOneInTheHeader) {
   const TextFile file("sphere.txt",
                       "1 1  1.4472025091165353 0  0 -1.4472025091165353  0 0\n1 0 0 0 0 0 2.0466534158929770 0\n");

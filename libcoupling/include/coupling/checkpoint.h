@@ -11,9 +11,10 @@ namespace vesiflow::coupling {
 /// \throws FileError when it cannot be written
 void write_checkpoint(const std::filesystem::path& file, const Simulation& simulation);
 
-/// The scene a checkpoint was made with.
-/// \throws SceneError when the file cannot be read
-Scene read_checkpoint_scene(const std::filesystem::path& file);
+/// The scene a checkpoint was made with, the surfaces of shapes from files included: those files need not exist any
+/// more.
+/// \throws SceneError when the file cannot be read or an override is refused
+Scene read_checkpoint_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 
 /// Puts `simulation` in the state of the checkpoint: from there it goes on bit for bit as the run that wrote it.
 /// \throws SceneError when the file is unreadable or damaged, or naming the key when the two scenes differ in anything

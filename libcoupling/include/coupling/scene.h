@@ -6,16 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "vesicle/coefficients.h"
 #include "vesicle/laplace_beltrami.h"
 #include "vesicle/membrane.h"
 #include "vesicle/mesh_control.h"
+#include "vesicle/shapes.h"
 
 namespace vesiflow::coupling {
 
 enum class Preset { standard, paper };
 enum class FlowType { rest, shear, custom };
 enum class FlowStart { flow, rest };
-enum class Shape { sphere, prolate, oblate, ellipsoid };
+enum class Shape { sphere, prolate, oblate, ellipsoid, biconcave, harmonics, coefficients, mesh };
 
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
 struct VesicleScene {
@@ -23,7 +25,13 @@ struct VesicleScene {
   std::optional<double> reduced_volume;       ///< of a prolate or oblate, in [0.3, 1]
   std::optional<double> aspect_ratio;         ///< of a prolate or oblate: long over short axis, >= 1
   std::optional<std::array<double, 3>> axes;  ///< of an ellipsoid: ratios of its axes along x, y, z
-  double radius = 1.0;                        ///< effective radius (3V/4 pi)^(1/3)
+  std::vector<vesicle::Harmonic> harmonics;   ///< terms of a perturbed sphere
+  std::optional<std::string> file;            ///< of coefficients or of a mesh; absolute once a scene is loaded
+  std::optional<int> fit_degrees;             ///< degrees of the radius that is fitted to a mesh
+  /// What the file of shape coefficients or mesh says. No key: loading a scene fills it from the file, or from the
+  /// checkpoint; programs that fill a Scene themselves may set it instead of `file`.
+  std::optional<vesicle::Coefficients> surface;
+  double radius = 1.0;  ///< effective radius (3V/4 pi)^(1/3)
   std::array<double, 3> centre{0.0, 0.0, 0.0};
   std::array<double, 3> rotation_axis{0.0, 1.0, 0.0};
   double rotation_deg = 0.0;  ///< turns the shape, whose symmetry axis is z, about rotation_axis

@@ -35,8 +35,8 @@ VectorField spheroid(const SphereGrid& grid, double aspect_ratio, const Placemen
 VectorField prolate(const SphereGrid& grid, double reduced_volume, const Placement& placement = {});
 VectorField oblate(const SphereGrid& grid, double reduced_volume, const Placement& placement = {});
 
-/// Red-cell discocyte of E. Evans and Y. C. Fung, Microvasc. Res. 4 (1972) 335, doi:10.1016/0026-2862(72)90069-6: at the
-/// distance rho = sin(theta) from the axis, in units of the radius of the disc,
+/// Red-cell discocyte of E. Evans and Y. C. Fung, Microvasc. Res. 4 (1972) 335, doi:10.1016/0026-2862(72)90069-6: at
+/// the distance rho = sin(theta) from the axis, in units of the radius of the disc,
 ///   z = cos(theta)/2 (c0 + c1 rho^2 + c2 rho^4),  c0 = 0.207161, c1 = 2.002558, c2 = -1.122762.
 /// Its reduced volume is 0.6444.
 VectorField biconcave_disc(const SphereGrid& grid, const Placement& placement = {});
@@ -49,16 +49,16 @@ struct Harmonic {
   double amplitude = 0;
 };
 
-/// X = r(d) d over the directions d of the grid, r = 1 + sum of the terms, then scaled to the effective radius: a common
-/// factor changes nothing. The centre of the directions, not the centroid, lies at the centre.
+/// X = r(d) d over the directions d of the grid, r = 1 + sum of the terms, then scaled to the effective radius: a
+/// common factor changes nothing. The centre of the directions, not the centroid, lies at the centre.
 /// @throws std::invalid_argument also when r is not > 0 (looked at in about eight points per wavelength
 /// of the highest degree, and on the grid).
 VectorField perturbed_sphere(const SphereGrid& grid, std::span<const Harmonic> terms, const Placement& placement = {});
 
 /// The surface with the given coefficients of three fields, of any number of degrees, at the nodes of the grid. It is
 /// scaled to the effective radius, turned about the centroid of its volume, and the centroid is put at the centre.
-/// @throws std::invalid_argument also unless the coefficients are finite with three fields, std::domain_error unless the
-/// enclosed volume is > 0: it is negative where X_theta x X_phi points inward.
+/// @throws std::invalid_argument also unless the coefficients are finite with three fields, std::domain_error unless
+/// the enclosed volume is > 0: it is negative where X_theta x X_phi points inward.
 VectorField shape_from_coefficients(const SphereGrid& grid, const Coefficients& coefficients,
                                     const Placement& placement = {});
 

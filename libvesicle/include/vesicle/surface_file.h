@@ -16,9 +16,9 @@ namespace vesiflow::vesicle {
 inline constexpr int largest_file_degree = 512;
 
 /// Coefficients of three fields.
-/// @throws std::runtime_error with file and line, the value and what is allowed: a line that has not 8 numbers, n outside
-/// [0, 512], m outside [0, n], a number that is not finite, an imaginary part other than 0 of order 0, a pair (n, m) given
-/// twice, or no line at all; and if the file cannot be read.
+/// @throws std::runtime_error with file and line, the value and what is allowed: a line that has not 8 numbers, n
+/// outside [0, 512], m outside [0, n], a number that is not finite, an imaginary part other than 0 of order 0, a pair
+/// (n, m) given twice, or no line at all; and if the file cannot be read.
 Coefficients read_surface_coefficients(const std::filesystem::path& path);
 
 /// Writes every coefficient with 17 digits, so that it reads back to the same bits.
