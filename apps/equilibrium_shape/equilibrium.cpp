@@ -1,0 +1,127 @@
+#include "equilibrium.h"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "stationarity.h"
+#include "vesicle/shapes.h"
+
+namespace equilibrium {
+namespace {
+
+using std::numbers::pi;
+
+constexpr const char* first_unknown_advice =
+    "Shapes so far from the sphere need more latitudes, or have no equilibrium with a mirror plane.";
+
+/// Unknowns of the shape with the given b_1, all others zero, scaled to the enclosed volume.
+Eigen::VectorXd one_parameter_shape(ConstrainedEnergy& energy, double b) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(energy.unknowns());
+  x[0] = 1;
+  x[1] = 2 * b;
+  energy.set(x);
+  x[0] = std::cbrt(energy.target_volume() / energy.functionals().volume);
+  return x;
+}
+
+/// The reduced volume falls from 1 at b = 0 to both sides: long shapes for b > 0, flat ones for b < 0.
+Eigen::VectorXd initial_shape(ConstrainedEnergy& energy, Branch branch, double reduced_volume) {
+  const double side = branch == Branch::prolate ? 1 : -1;
+  const auto reduced_volume_of = [&](double b) {
+    one_parameter_shape(energy, b);
+    return vesiflow::vesicle::reduced_volume(energy.functionals().area, energy.functionals().volume);
+  };
+  constexpr double stride = 0.05, farthest = 1.2;
+  try {
+    double near = 0;
+    double far = stride;
+    for (; reduced_volume_of(side * far) > reduced_volume; far += stride) {
+      if (far > farthest) throw std::domain_error("no start");
+      near = far;
+    }
+    for (double middle = (near + far) / 2; middle != near && middle != far; middle = (near + far) / 2)
+      (reduced_volume_of(side * middle) > reduced_volume ? near : far) = middle;
+    return one_parameter_shape(energy, side * near);
+  } catch (const std::domain_error&) {
+    throw NotConverged("no shape to start from has this reduced volume", first_unknown_advice);
+  }
+}
+
+void describe_shape(const ConstrainedEnergy& energy, Equilibrium& result) {
+  const Meridian& meridian = energy.meridian();
+  result.energy = energy.functionals().energy;
+  result.polar_semi_axis = meridian.polar_semi_axis();
+  result.equatorial_radius = meridian.equatorial_radius();
+  result.half_arclength = pi * meridian.arclength_per_colatitude();
+  result.polar_mean_curvature = meridian.polar_mean_curvature();
+  result.equatorial_mean_curvature = meridian.equatorial_mean_curvature();
+  result.area_error = energy.constraint_errors()[0];
+  result.volume_error = energy.constraint_errors()[1];
+  result.last_coefficient = meridian.last_coefficient();
+}
+
+void verify(ConstrainedEnergy& energy, Equilibrium& result) {
+  const Stationarity at_shape = stationarity(energy.gradients());
+  result.tension = at_shape.tension;
+  result.pressure = at_shape.pressure;
+  result.largest_force = energy.normal_force().abs().maxCoeff();
+  result.euler_lagrange_residual =
+      (energy.normal_force() + result.pressure - 2 * result.tension * energy.surface().mean_curvature())
+          .abs()
+          .maxCoeff();
+  result.scaling_error =
+      2 * result.tension * energy.functionals().area / (3 * result.pressure * energy.functionals().volume) - 1;
+}
+
+void check_usable(const Equilibrium& result) {
+  if (!(result.polar_semi_axis > 0))
+    throw NotConverged(
+        fmt::format("the two caps pass through each other: half length of the axis {:.3g}", result.polar_semi_axis),
+        "Without a contact force the oblate branch ends where its dimples meet: take a larger reduced volume.");
+}
+
+}  // namespace
+
+std::string name_of(Branch branch) {
+  return branch == Branch::prolate ? "prolate" : "oblate";
+}
+
+Equilibrium find_equilibrium(ConstrainedEnergy& energy, Branch branch, double reduced_volume, Method method,
+                             const SolverOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const int evaluations_before = energy.gradient_evaluations();
+  Equilibrium result;
+  result.branch = branch;
+  result.reduced_volume = reduced_volume;
+  result.latitudes = energy.surface().grid().latitudes();
+  result.method = method;
+
+  energy.set_reduced_volume(reduced_volume);
+  if (reduced_volume == 1) {  // area and volume alone fix the sphere
+    energy.set(Eigen::VectorXd::Unit(energy.unknowns(), 0));
+    describe_shape(energy, result);
+  } else {
+    Eigen::VectorXd x = initial_shape(energy, branch, reduced_volume);
+    const SolverReport report = minimise(method, energy, x, options);
+    result.residual = report.residual;
+    result.iterations = report.iterations;
+    if (!report.converged)
+      throw NotConverged(
+          fmt::format("{}; after {} iterations the residual is {:.2g}, above the tolerance of {:.2g}", report.obstacle,
+                      report.iterations, report.residual, options.tolerance),
+          report.residual < 1e3 * options.tolerance
+              ? "The residual is at the rounding of this mesh: raise --tolerance, or take another --method."
+              : "Take another --method, more --latitudes, or a reduced volume nearer to 1.");
+    describe_shape(energy, result);
+    verify(energy, result);
+  }
+  check_usable(result);
+  result.gradient_evaluations = energy.gradient_evaluations() - evaluations_before;
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace equilibrium
