@@ -14,9 +14,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr const char* first_unknown_advice =
-    "Shapes so far from the sphere need more latitudes, or have no equilibrium with a mirror plane.";
-
 /// Unknowns of the shape with the given b_1, all others zero, scaled to the enclosed volume.
 Eigen::VectorXd one_parameter_shape(ConstrainedEnergy& energy, double b) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(energy.unknowns());
@@ -34,11 +31,11 @@ Eigen::VectorXd initial_shape(ConstrainedEnergy& energy, Branch branch, double r
     one_parameter_shape(energy, b);
     return vesiflow::vesicle::reduced_volume(energy.functionals().area, energy.functionals().volume);
   };
-  constexpr double stride = 0.05, farthest = 1.2;
+  constexpr double stride_of_b = 0.05, farthest = 1.2;
   try {
     double near = 0;
-    double far = stride;
-    for (; reduced_volume_of(side * far) > reduced_volume; far += stride) {
+    double far = stride_of_b;
+    for (; reduced_volume_of(side * far) > reduced_volume; far += stride_of_b) {
       if (far > farthest) throw std::domain_error("no start");
       near = far;
     }
@@ -46,8 +43,19 @@ Eigen::VectorXd initial_shape(ConstrainedEnergy& energy, Branch branch, double r
       (reduced_volume_of(side * middle) > reduced_volume ? near : far) = middle;
     return one_parameter_shape(energy, side * near);
   } catch (const std::domain_error&) {
-    throw NotConverged("no shape to start from has this reduced volume", first_unknown_advice);
+    throw std::logic_error("no shape to start from has this reduced volume");
   }
+}
+
+/// Changes the shape as little as the other area needs.
+void take_reduced_volume(ConstrainedEnergy& energy, double reduced_volume, Eigen::VectorXd& x) {
+  energy.set(x);
+  energy.set_reduced_volume(reduced_volume);
+  const Directions bases = directions(energy.constraint_gradients());
+  if (!retract(energy, bases.constrained, x))
+    throw NotConverged(
+        fmt::format("on the way from rounder shapes, none was found with reduced volume {:g}", reduced_volume),
+        "Take more --latitudes or a larger reduced volume.");
 }
 
 void describe_shape(const ConstrainedEnergy& energy, Equilibrium& result) {
@@ -76,11 +84,44 @@ void verify(ConstrainedEnergy& energy, Equilibrium& result) {
       2 * result.tension * energy.functionals().area / (3 * result.pressure * energy.functionals().volume) - 1;
 }
 
-void check_usable(const Equilibrium& result) {
-  if (!(result.polar_semi_axis > 0))
+void check_usable(double reduced_volume, const Meridian& meridian) {
+  if (!(meridian.polar_semi_axis() > 0))
     throw NotConverged(
-        fmt::format("the two caps pass through each other: half length of the axis {:.3g}", result.polar_semi_axis),
+        fmt::format("the two caps pass through each other at reduced volume {:g}: half length of the axis {:.3g}",
+                    reduced_volume, meridian.polar_semi_axis()),
         "Without a contact force the oblate branch ends where its dimples meet: take a larger reduced volume.");
+}
+
+void minimise_or_throw(ConstrainedEnergy& energy, const SolverOptions& options, Eigen::VectorXd& x,
+                       Equilibrium& result) {
+  const SolverReport report = minimise(result.method, energy, x, options);
+  result.residual = report.residual;
+  result.iterations += report.iterations;
+  if (report.converged) return;
+  constexpr double nearly = 1e3;
+  throw NotConverged(
+      fmt::format("{}; after {} iterations the residual is {:.2g}, above the tolerance of {:.2g}", report.obstacle,
+                  report.iterations, report.residual, options.tolerance),
+      report.residual < nearly * options.tolerance
+          ? "The residual may be at the rounding of this mesh: raise --tolerance, or take another --method."
+          : "Take another --method, more --latitudes, or a reduced volume nearer to 1.");
+}
+
+/// Down to this reduced volume the one-parameter shapes lead to both branches at once; below it, step by step.
+constexpr double least_direct = 0.65;
+constexpr double stride = 0.025;
+
+void follow_branch(ConstrainedEnergy& energy, const SolverOptions& options, Equilibrium& result) {
+  double reached = std::max(result.reduced_volume, least_direct);
+  energy.set_reduced_volume(reached);
+  Eigen::VectorXd x = initial_shape(energy, result.branch, reached);
+  minimise_or_throw(energy, options, x, result);
+  while (reached > result.reduced_volume) {
+    reached = std::max(result.reduced_volume, reached - stride);
+    take_reduced_volume(energy, reached, x);
+    minimise_or_throw(energy, options, x, result);
+    check_usable(reached, energy.meridian());
+  }
 }
 
 }  // namespace
@@ -99,26 +140,15 @@ Equilibrium find_equilibrium(ConstrainedEnergy& energy, Branch branch, double re
   result.latitudes = energy.surface().grid().latitudes();
   result.method = method;
 
-  energy.set_reduced_volume(reduced_volume);
   if (reduced_volume == 1) {  // area and volume alone fix the sphere
+    energy.set_reduced_volume(1);
     energy.set(Eigen::VectorXd::Unit(energy.unknowns(), 0));
     describe_shape(energy, result);
   } else {
-    Eigen::VectorXd x = initial_shape(energy, branch, reduced_volume);
-    const SolverReport report = minimise(method, energy, x, options);
-    result.residual = report.residual;
-    result.iterations = report.iterations;
-    if (!report.converged)
-      throw NotConverged(
-          fmt::format("{}; after {} iterations the residual is {:.2g}, above the tolerance of {:.2g}", report.obstacle,
-                      report.iterations, report.residual, options.tolerance),
-          report.residual < 1e3 * options.tolerance
-              ? "The residual is at the rounding of this mesh: raise --tolerance, or take another --method."
-              : "Take another --method, more --latitudes, or a reduced volume nearer to 1.");
+    follow_branch(energy, options, result);
     describe_shape(energy, result);
     verify(energy, result);
   }
-  check_usable(result);
   result.gradient_evaluations = energy.gradient_evaluations() - evaluations_before;
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -58,8 +58,8 @@ class NotConverged : public std::runtime_error {
   std::string advice_;
 };
 
-/// Finds the shape from the one-parameter family phi = theta + b sin 2 theta with that reduced volume; other shapes of the same
-/// call have no part in it. Leaves `energy` at the shape, for output.
+/// Finds the shape from the one-parameter family phi = theta + b sin 2 theta with that reduced volume; below 0.65, from there
+/// in steps of the reduced volume. Nothing depends on shapes found before. Leaves `energy` at the shape, for output.
 /// @throws NotConverged; std::invalid_argument unless 0 < reduced_volume <= 1; MethodMissing.
 Equilibrium find_equilibrium(ConstrainedEnergy& energy, Branch branch, double reduced_volume, Method method,
                              const SolverOptions& options);

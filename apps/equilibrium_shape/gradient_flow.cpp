@@ -54,9 +54,9 @@ SolverReport minimise_by_gradient_flow(ConstrainedEnergy& energy, Eigen::VectorX
     for (; step_size > shortest; step_size /= 2) {
       x = last_x - step_size * now.residual;
       const double slope = -now.residual.squaredNorm();
-      const bool rounding = -slope * step_size < 1e-11 * here;
+      const bool settled = -slope * step_size < settled_change * here;
       if (retract(energy, bases.constrained, x) &&
-          (rounding || energy.functionals().energy <= ceiling + sufficient * step_size * slope))
+          (settled || energy.functionals().energy <= ceiling + sufficient * step_size * slope))
         break;
     }
     if (step_size <= shortest) {

@@ -16,7 +16,7 @@ enum class Method {
   newton,         ///< Newton's method on the manifold of given area and volume; built in
   gradient_flow,  ///< steepest descent on that manifold, Barzilai-Borwein steps; built in
   kinsol,         ///< SUNDIALS KINSOL: Newton with line search for unknowns and multipliers together
-  cvode,          ///< SUNDIALS CVODE: the gradient flow in time by BDF of variable order and step
+  cvode,          ///< SUNDIALS CVODE: the gradient flow in time, Adams-Moulton of variable order and step
 };
 
 /// All of them, with the names of the command line; and the one of a name.
@@ -54,6 +54,10 @@ class MethodMissing : public std::runtime_error {
 /// it. Nothing of the methods depends on which branch x lies on.
 /// @throws MethodMissing
 SolverReport minimise(Method method, ConstrainedEnergy& energy, Eigen::VectorXd& x, const SolverOptions& options);
+
+/// Relative changes of the energy that a coarse mesh need not get right: steps that promise less are taken without
+/// comparing energies.
+inline constexpr double settled_change = 1e-8;
 
 SolverReport minimise_by_newton(ConstrainedEnergy& energy, Eigen::VectorXd& x, const SolverOptions& options);
 SolverReport minimise_by_gradient_flow(ConstrainedEnergy& energy, Eigen::VectorXd& x, const SolverOptions& options);

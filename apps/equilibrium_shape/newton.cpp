@@ -63,16 +63,16 @@ SolverReport minimise_by_newton(ConstrainedEnergy& energy, Eigen::VectorXd& x, c
     step = descent(second_variation(energy, x, now, bases.free), free_gradient);
     const double slope = step.dot(free_gradient);
 
-    // Halve until the energy falls as it should. Where it falls by rounding only there is nothing to compare.
+    // Halve until the energy falls as it should.
     constexpr double sufficient = 1e-4;
     constexpr double shortest = 1e-4;
-    const bool rounding = -slope < 1e-11 * here;
+    const bool settled = -slope < settled_change * here;
     Eigen::VectorXd next;
     double fraction = 1;
     for (; fraction > shortest; fraction /= 2) {
       next = x + fraction * (bases.free * step);
       if (retract(energy, bases.constrained, next) &&
-          (rounding || energy.functionals().energy <= here + sufficient * fraction * slope))
+          (settled || energy.functionals().energy <= here + sufficient * fraction * slope))
         break;
     }
     if (fraction <= shortest) {
