@@ -44,7 +44,8 @@ struct Equilibrium {
   int gradient_evaluations = 0;
   double seconds = 0;
 
-  bool resolved() const { return euler_lagrange_residual <= 1e-2 * largest_force; }
+  /// To about 1e-6 in the energy.
+  bool resolved() const { return euler_lagrange_residual <= 1e-3 * largest_force; }
 };
 
 /// Of a shape that was not found: what happened, and what to do about it.

@@ -27,11 +27,12 @@ Outcome compute(const Arguments& arguments, ConstrainedEnergy& energy, double re
     const Equilibrium shape = find_equilibrium(energy, arguments.branch, reduced_volume, arguments.method, options);
     if (!arguments.quiet) fmt::print(stderr, "{}\n", describe(shape));
     if (!shape.resolved())
-      fmt::print(stderr,
-                 "{} {:g}: converged on a mesh too coarse for it: the force is off by {:.1e} (largest {:.1e}); take "
-                 "more than --latitudes {}\n",
-                 name_of(shape.branch), shape.reduced_volume, shape.euler_lagrange_residual, shape.largest_force,
-                 shape.latitudes);
+      fmt::print(
+          stderr,
+          "{} {:g}: the force is off by {:.1e} of {:.1e} on this mesh: take more than --latitudes {}, or less than "
+          "--tolerance {:g}\n",
+          name_of(shape.branch), shape.reduced_volume, shape.euler_lagrange_residual, shape.largest_force,
+          shape.latitudes, arguments.tolerance);
     if (!arguments.output.empty()) write_shape(arguments.output, shape, energy);
     return shape;
   } catch (const NotConverged& failure) {

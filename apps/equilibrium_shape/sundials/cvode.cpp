@@ -75,7 +75,7 @@ SolverReport minimise_by_cvode(ConstrainedEnergy& energy, Eigen::VectorXd& x, co
     velocity(energy, x, Eigen::Map<Eigen::VectorXd>(rate.data(), n));
     report.residual = rate.norm();
     if (options.progress) options.progress({report.iterations, energy.functionals().energy, report.residual});
-    if (report.residual <= options.tolerance || report.iterations == limit) break;
+    if (report.residual <= 0.5 * options.tolerance || report.iterations == limit) break;
     double time = 0;
     const int status = CVode(cvode.get(), far_future, state.get(), &time, CV_ONE_STEP);
     if (status < 0) {
@@ -83,7 +83,7 @@ SolverReport minimise_by_cvode(ConstrainedEnergy& energy, Eigen::VectorXd& x, co
       break;
     }
   }
-  // The flow meets area and volume as well as its tolerance only.
+  // Half of the tolerance is left for this: the flow meets area and volume as well as its own tolerance only.
   const Directions bases = directions(energy.constraint_gradients());
   if (!retract(energy, bases.constrained, x)) report.obstacle = "the flow left the shapes with this area and volume";
   report.residual = stationarity(energy.gradients()).residual.norm();

@@ -20,8 +20,6 @@ struct FreeKinsol {
 /// E + tension (A - A0) - pressure (V - V0).
 struct System {
   ConstrainedEnergy& energy;
-  const SolverOptions& options;
-  int calls = 0;
 
   void evaluate(const Eigen::VectorXd& u, Eigen::Map<Eigen::VectorXd> result) {
     const Eigen::Index n = energy.unknowns();
@@ -58,14 +56,15 @@ SolverReport minimise_by_kinsol(ConstrainedEnergy& energy, Eigen::VectorXd& x, c
   values(u.get()) << x, start.tension, start.pressure;
   N_VConst(1.0, scale.get());  // unknowns and residuals are of order one
 
-  System system{energy, options};
+  System system{energy};
   std::string message;
   const int limit = options.most_iterations > 0 ? options.most_iterations : most_iterations;
   KINSetErrHandlerFn(kinsol.get(), keep_message, &message);
   KINInit(kinsol.get(), evaluate, u.get());
   KINSetUserData(kinsol.get(), &system);
-  KINSetLinearSolver(kinsol.get(), solver.get(), jacobian.get());                 // Jacobian by differences
-  KINSetFuncNormTol(kinsol.get(), options.tolerance / std::sqrt(double(n + 2)));  // KINSOL takes the largest entry
+  KINSetLinearSolver(kinsol.get(), solver.get(), jacobian.get());  // Jacobian by differences
+  // KINSOL takes the largest entry; half, because area and volume are made exact afterwards.
+  KINSetFuncNormTol(kinsol.get(), 0.5 * options.tolerance / std::sqrt(double(n + 2)));
   KINSetScaledStepTol(kinsol.get(), 1e-15);
   KINSetNumMaxIters(kinsol.get(), limit);
   KINSetMaxSetupCalls(kinsol.get(), 1);  // a new Jacobian for every step
