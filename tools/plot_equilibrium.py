@@ -31,8 +31,8 @@ STYLE = {
     "savefig.dpi": 160,
 }
 INSETS = 5  # shapes per branch
-INSET_SIZE = 0.13  # of the axes' width
-INSET_DISTANCE = {"prolate": -0.17, "oblate": 0.14}  # from the curve, of the axes' height
+INSET_SIZE = 0.17  # of the axes' width
+INSET_DISTANCE = {"prolate": -0.17, "oblate": 0.13}  # from the curve, of the axes' height
 
 
 class MissingData(Exception):
@@ -55,12 +55,11 @@ def read_branch(folder, branch):
     return sorted(shapes, key=lambda shape: shape["reduced_volume"])
 
 
-def draw_outlines(axes, branch, shapes):
-    """Some of the shapes beside the curve, all to the same scale, axis upright."""
+def draw_outlines(axes, branch, shapes, reach):
+    """Some of the shapes beside the curve, axis upright; `reach` is half the size of an inset."""
     drawable = [shape for shape in shapes if "outline" in shape]
     if not drawable:
         return
-    reach = 1.05 * max(np.abs(shape["outline"]).max() for shape in drawable)
     chosen = np.unique(np.linspace(0, len(drawable) - 1, INSETS).round().astype(int))
     for shape in (drawable[k] for k in chosen):
         point = (shape["reduced_volume"], shape["bending_energy_over_sphere"])
@@ -74,19 +73,21 @@ def draw_outlines(axes, branch, shapes):
 
 
 def draw(branches, target):
-    figure, axes = plt.subplots(figsize=(7.5, 5.5), constrained_layout=True)
+    figure, axes = plt.subplots(figsize=(7.5, 5.5))
     for branch, shapes in branches.items():
         volumes = [shape["reduced_volume"] for shape in shapes]
         energies = [shape["bending_energy_over_sphere"] for shape in shapes]
         axes.plot(volumes, energies, color=COLOURS[branch], linewidth=1.8, label=branch)
     axes.set(xlabel="reduced volume", ylabel="bending energy over that of the sphere")
     axes.grid(color="0.9")
-    axes.margins(x=0.08, y=0.3)
+    axes.margins(x=0.1, y=0.35)
     axes.legend(frameon=False, loc="upper right")
-    axes.autoscale(False)
-    figure.canvas.draw()  # the layout is settled: data and axes coordinates correspond
+    axes.set(xlim=axes.get_xlim(), ylim=axes.get_ylim())  # the insets move nothing
+    figure.tight_layout()
+    outlines = [shape["outline"] for shapes in branches.values() for shape in shapes if "outline" in shape]
+    reach = max((np.abs(outline).max() for outline in outlines), default=1)
     for branch, shapes in branches.items():
-        draw_outlines(axes, branch, shapes)
+        draw_outlines(axes, branch, shapes, 1.05 * reach)
     figure.savefig(target)
 
 

@@ -77,7 +77,7 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   app.add_option("--branch", branch, "prolate or oblate")->required();
   app.add_option("--reduced-volume", volumes, "in (0, 1]: any number of values or FROM:TO:STEP")->required();
   app.add_option("--latitudes", arguments.latitudes, "of the marker mesh")->capture_default_str();
-  app.add_option("--method", method, "newton or gradient_flow; kinsol or cvode of SUNDIALS")->capture_default_str();
+  app.add_option("--method", method, "gradient_flow or newton; kinsol or cvode of SUNDIALS")->capture_default_str();
   app.add_option("--tolerance", arguments.tolerance, "on the energy's gradient at fixed area and volume")
       ->capture_default_str();
   app.add_option("--max-iterations", arguments.most_iterations, "give up after so many (default: by method)");

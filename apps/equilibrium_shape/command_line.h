@@ -13,7 +13,7 @@ struct Arguments {
   Branch branch = Branch::prolate;
   std::vector<double> reduced_volumes;
   int latitudes = 32;
-  Method method = Method::newton;
+  Method method = Method::gradient_flow;
   double tolerance = 1e-9;
   int most_iterations = 0;
   std::filesystem::path output;  ///< empty: no files
@@ -30,7 +30,8 @@ class CommandLineError : public std::runtime_error {
 /// @throws CommandLineError
 std::vector<double> parse_reduced_volumes(const std::string& text);
 
-/// @throws CommandLineError; CLI::Success-like requests (help) are answered on standard output and give false.
+/// False if only help was asked for, which is then printed.
+/// @throws CommandLineError
 bool parse_command_line(int argc, char** argv, Arguments& arguments);
 
 }  // namespace equilibrium
