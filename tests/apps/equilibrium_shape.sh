@@ -44,7 +44,7 @@ refused 2 '--method bisection: must be one of newton, gradient_flow, kinsol, cvo
   --branch prolate --reduced-volume 0.9 --method bisection
 refused 3 'prolate 0.9: not converged: the limit of iterations was reached; after 1 iterations the residual is .*above' \
   "${coarse[@]}" prolate --reduced-volume 0.9 --max-iterations 1 --method gradient_flow
-refused 3 'oblate 0.45: not converged: the two caps pass through each other at \
+refused 3 'oblate 0.45: not converged: the two caps pass through each other at' \
   "${coarse[@]}" oblate --reduced-volume 0.45
 echo "not a folder" >"$work/file"
 refused 4 "--output $work/file/shapes" "${coarse[@]}" prolate --reduced-volume 0.9 --output "$work/file/shapes"
