@@ -92,7 +92,7 @@ void check_usable(double reduced_volume, const Meridian& meridian) {
         "Without a contact force the oblate branch ends where its dimples meet: take a larger reduced volume.");
 }
 
-void minimise_or_throw(ConstrainedEnergy& energy, const SolverOptions& options, Eigen::VectorXd& x,
+void minimise_or_throw(ConstrainedEnergy& energy, double reached, const SolverOptions& options, Eigen::VectorXd& x,
                        Equilibrium& result) {
   const SolverReport report = minimise(result.method, energy, x, options);
   result.residual = report.residual;
@@ -100,8 +100,9 @@ void minimise_or_throw(ConstrainedEnergy& energy, const SolverOptions& options, 
   if (report.converged) return;
   constexpr double nearly = 1e3;
   throw NotConverged(
-      fmt::format("{}; after {} iterations the residual is {:.2g}, above the tolerance of {:.2g}", report.obstacle,
-                  report.iterations, report.residual, options.tolerance),
+      fmt::format("{}{}; after {} iterations the residual is {:.2g}, above the tolerance of {:.2g}",
+                  reached > result.reduced_volume ? fmt::format("on the way, at reduced volume {:g}, ", reached) : "",
+                  report.obstacle, report.iterations, report.residual, options.tolerance),
       report.residual < nearly * options.tolerance
           ? "The residual may be at the rounding of this mesh: raise --tolerance, or take another --method."
           : "Take another --method, more --latitudes, or a reduced volume nearer to 1.");
@@ -115,11 +116,11 @@ void follow_branch(ConstrainedEnergy& energy, const SolverOptions& options, Equi
   double reached = std::max(result.reduced_volume, least_direct);
   energy.set_reduced_volume(reached);
   Eigen::VectorXd x = initial_shape(energy, result.branch, reached);
-  minimise_or_throw(energy, options, x, result);
+  minimise_or_throw(energy, reached, options, x, result);
   while (reached > result.reduced_volume) {
     reached = std::max(result.reduced_volume, reached - stride);
     take_reduced_volume(energy, reached, x);
-    minimise_or_throw(energy, options, x, result);
+    minimise_or_throw(energy, reached, options, x, result);
     check_usable(reached, energy.meridian());
   }
 }
