@@ -4,10 +4,11 @@ set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
 option(VESIFLOW_NATIVE "Use this machine's vector instructions (-march=native)" ON)
 option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (libcoupling)" ON)
 option(VESIFLOW_WITH_CHOLMOD "Build the sparse direct solver, for small elliptic problems (libfluid)" ON)
+option(VESIFLOW_WITH_SUNDIALS "Build the methods kinsol and cvode (app equilibrium_shape)" ON)
 option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
 option(VESIFLOW_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
-option(VESIFLOW_BUILD_APPS "Build the apps (needs libcoupling)" ${PROJECT_IS_TOP_LEVEL})
+option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
 option(VESIFLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(VESIFLOW_BUILD_BENCH "Build the benchmarks" OFF)
 
