@@ -15,8 +15,8 @@ using vesiflow::vesicle::ScalarField;
 using vesiflow::vesicle::SphereGrid;
 
 /// The library's bending force at capillary number one, which is minus the derivative of (1/2) int H^2 dA.
-BendingForce bending_force(int latitudes) {
-  return BendingForce(latitudes, 1.0, vesiflow::vesicle::LaplacianForm::cartesian);
+BendingForce bending_force(const SphereGrid& grid) {
+  return BendingForce(grid, {.capillary_number = 1, .spontaneous_curvature = 0, .laplacian = {}});
 }
 
 /// Modes of the tangent angle: sin(2 k theta) up to degree 3N/4, which leaves the mesh room for the products in the curvatures.
@@ -31,7 +31,7 @@ int modes_of(int latitudes) {
 
 ConstrainedEnergy::ConstrainedEnergy(int latitudes)
     : surface_(latitudes),
-      bending_(bending_force(latitudes)),
+      bending_(bending_force(surface_.grid())),
       meridian_(surface_.grid(), modes_of(latitudes)),
       target_area_(4 * pi),
       target_volume_(4 * pi / 3),
@@ -54,7 +54,7 @@ void ConstrainedEnergy::set(const Eigen::VectorXd& x) {
       positions_(marker, 1) = meridian_.rho()[j] * std::sin(grid.longitude(i));
       positions_(marker, 2) = meridian_.z()[j];
     }
-  surface_.update(positions_);
+  surface_.update(positions_, vesiflow::vesicle::GeometryDetail::curvature);
   functionals_ = {vesiflow::vesicle::bending_energy(surface_), surface_.area(), surface_.volume()};
 }
 
