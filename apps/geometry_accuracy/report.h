@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry_accuracy/measurement.h"
+
+/// Tables like Table 1, the paper's numbers beside ours, and a verdict on each target.
+std::string text_report(const std::vector<Measurement>& measurements);
+
+/// A list of one object per surface, grid and form of Lap H.
+std::string json_report(const std::vector<Measurement>& measurements);
+
+std::string name_of(vesiflow::vesicle::LaplacianForm form);
+/// 1, 1.5 or 2.
+double factor_of(vesiflow::vesicle::Upsampling upsampling);
