@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "coupling/simulation.h"
@@ -57,6 +58,18 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("threads", "{}", threads);
 }
 
+std::string describe_bending(const Scene& scene) {
+  constexpr std::array forms{"Cartesian gradients", "Christoffel symbols", "Eq. (14), truncated (paper)"};
+  constexpr std::array grids{"the grid of the markers", "1.5 times the latitudes", "twice the latitudes",
+                             "a grid chosen from the spectrum"};
+  std::string text =
+      fmt::format("Laplacian of H by {} on {}", forms[static_cast<std::size_t>(scene.membrane.laplacian)],
+                  grids[static_cast<std::size_t>(scene.membrane.upsampling)]);
+  if (scene.membrane.spontaneous_curvature != 0.0)
+    text += fmt::format(", spontaneous curvature {:g}", scene.membrane.spontaneous_curvature);
+  return text;
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.membrane.sigma0 > 0.0;
   const bool shear = scene.flow.type == FlowType::shear;
@@ -64,13 +77,16 @@ void describe_step(Plan& plan, const Scene& scene) {
       scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
   plan.head("Each step");
   plan.part(true, "geometry", fmt::format("spherical harmonics of {} degrees", scene.mesh.latitudes), "");
-  plan.part(true, "bending",
-            scene.membrane.laplacian == vesicle::LaplacianForm::cartesian
-                ? "Laplacian of H by Cartesian gradients on the doubled grid"
-                : "Laplacian of H by Eq. (14) on the doubled grid, truncated (paper)",
-            "");
-  plan.part(tension, "tension", fmt::format("log tension, divergence form, sigma0 = {:g}", scene.membrane.sigma0),
-            "membrane.sigma0 = 0");
+  plan.part(true, "bending", describe_bending(scene), "");
+  plan.part(
+      tension, "tension",
+      fmt::format("{} tension, {} form, sigma0 = {:g}",
+                  scene.membrane.tension_law == vesicle::TensionLaw::logarithmic ? "log" : "linear",
+                  scene.membrane.tension_form == vesicle::TensionForm::divergence ? "divergence" : "non-divergence",
+                  scene.membrane.sigma0),
+      "membrane.sigma0 = 0");
+  plan.part(scene.membrane.area == vesicle::AreaControl::penalty, "area penalty",
+            fmt::format("force with c_a = {:g}", scene.membrane.area_stiffness), "membrane.area is not \"penalty\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
             fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
             "membrane.volume is not \"penalty\"");
@@ -89,6 +105,8 @@ void describe_step(Plan& plan, const Scene& scene) {
             "");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
             "exact, of the marker velocity", "membrane.volume is not \"projection\"");
+  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection", "exact, of the marker velocity",
+            "membrane.area is not \"projection\"");
   plan.part(true, "markers", scene.time.markers, "");
   plan.part(tension, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased

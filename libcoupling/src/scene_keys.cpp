@@ -71,7 +71,13 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.optional_number("membrane.g", scene.membrane.g, Range::positive());
   choice_of(v, "membrane.volume", scene.membrane.volume, {"none", "penalty", "projection"});
   v.number("membrane.volume_stiffness", scene.membrane.volume_stiffness, Range::from(0.0));
-  choice_of(v, "membrane.laplacian", scene.membrane.laplacian, {"cartesian", "paper"});
+  v.number("membrane.spontaneous_curvature", scene.membrane.spontaneous_curvature, Range::any());
+  choice_of(v, "membrane.tension_law", scene.membrane.tension_law, {"logarithmic", "linear"});
+  choice_of(v, "membrane.tension_form", scene.membrane.tension_form, {"divergence", "non_divergence"});
+  choice_of(v, "membrane.area", scene.membrane.area, {"none", "penalty", "projection"});
+  v.number("membrane.area_stiffness", scene.membrane.area_stiffness, Range::from(0.0));
+  choice_of(v, "membrane.laplacian", scene.membrane.laplacian, {"cartesian", "christoffel", "paper"});
+  choice_of(v, "membrane.upsampling", scene.membrane.upsampling, {"1", "1.5", "2", "auto"});
 
   v.integer("mesh.latitudes", scene.mesh.latitudes, Range::between(8, 256));
   choice_of(v, "mesh.filter", scene.mesh.filter, {"velocity", "components"});

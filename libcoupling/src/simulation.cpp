@@ -17,7 +17,15 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
   vesicle::MembraneParameters parameters;
   parameters.capillary_number = scene.membrane.capillary_number;
   parameters.sigma0 = scene.membrane.sigma0;
-  parameters.laplacian = scene.membrane.laplacian;
+  parameters.spontaneous_curvature = scene.membrane.spontaneous_curvature;
+  parameters.tension_law = scene.membrane.tension_law;
+  parameters.tension_form = scene.membrane.tension_form;
+  parameters.area = scene.membrane.area;
+  parameters.area_stiffness = scene.membrane.area_stiffness;
+  parameters.laplacian.form = scene.membrane.laplacian;
+  parameters.laplacian.upsampling = scene.membrane.upsampling;
+  // Eq. (14) goes with the truncation that the paper gives it.
+  parameters.laplacian.truncated = scene.membrane.laplacian == vesicle::LaplacianForm::paper;
   parameters.volume = scene.membrane.volume;
   parameters.volume_stiffness = scene.membrane.volume_stiffness;
   parameters.filter = scene.mesh.filter;

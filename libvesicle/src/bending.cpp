@@ -1,26 +1,40 @@
 #include "vesicle/bending.h"
 
+#include <cmath>
+
 #include "check.h"
 
 namespace vesiflow::vesicle {
+namespace {
 
-double bending_energy(const Surface& surface) {
-  return 0.5 * (surface.mean_curvature().square() * surface.area_weight()).sum();
+const BendingParameters& checked(const BendingParameters& p) {
+  check_argument(p.capillary_number > 0, "capillary_number", p.capillary_number, "> 0");
+  check_argument(std::isfinite(p.spontaneous_curvature), "spontaneous_curvature", p.spontaneous_curvature, "finite");
+  return p;
 }
 
-BendingForce::BendingForce(int latitudes, double capillary_number, LaplacianForm form)
-    : stiffness_(0.5 / capillary_number), laplacian_(latitudes, form) {
-  check_argument(capillary_number > 0, "capillary_number", capillary_number, "> 0");
+}  // namespace
+
+double bending_energy(const Surface& surface, double spontaneous_curvature) {
+  return 0.5 * ((surface.mean_curvature() - spontaneous_curvature).square() * surface.area_weight()).sum();
 }
+
+BendingForce::BendingForce(const SphereGrid& grid, const BendingParameters& parameters)
+    : parameters_(checked(parameters)), laplacian_(grid, parameters.laplacian), normal_force_(grid.size()) {}
 
 void BendingForce::add_to(const Surface& surface, VectorField& force) {
   check_markers(force, "force", surface.grid().size());
-  laplacian_.evaluate(surface, normal_force_);
+  laplacian_.of_mean_curvature(surface, normal_force_);
+  const double h0 = parameters_.spontaneous_curvature;
   const ScalarField& h = surface.mean_curvature();
   const ScalarField& k = surface.gaussian_curvature();
-  normal_force_ = stiffness_ * (normal_force_ + 2 * h * (h.square() - k));
+  normal_force_ = (0.5 * normal_force_ + (h - h0) * (h.square() - k + h0 * h)) / parameters_.capillary_number;
   for (int component = 0; component < 3; ++component)
     force.col(component) += normal_force_ * surface.normal().col(component);
+}
+
+double BendingForce::energy(const Surface& surface) const {
+  return bending_energy(surface, parameters_.spontaneous_curvature) / parameters_.capillary_number;
 }
 
 }  // namespace vesiflow::vesicle

@@ -14,6 +14,9 @@ const MembraneParameters& checked(const MembraneParameters& p) {
   check_argument(std::isfinite(p.sigma0) && p.sigma0 >= 0, "sigma0", p.sigma0, "finite and >= 0");
   check_argument(std::isfinite(p.volume_stiffness) && p.volume_stiffness >= 0, "volume_stiffness", p.volume_stiffness,
                  "finite and >= 0");
+  check_argument(std::isfinite(p.spontaneous_curvature), "spontaneous_curvature", p.spontaneous_curvature, "finite");
+  check_argument(std::isfinite(p.area_stiffness) && p.area_stiffness >= 0, "area_stiffness", p.area_stiffness,
+                 "finite and >= 0");
   check_argument(p.normal_degrees >= 0, "normal_degrees", p.normal_degrees, ">= 0 (0: the 2N/3 rule)");
   check_argument(p.tangential_degrees >= 1, "tangential_degrees", p.tangential_degrees, ">= 1");
   return p;
@@ -34,8 +37,10 @@ Membrane::Membrane(const VectorField& initial_positions, int latitudes, const Me
       force_(VectorField::Zero(surface_.grid().size(), 3)),
       tension_(ScalarField::Zero(surface_.grid().size())) {
   if (std::isfinite(parameters.capillary_number))
-    bending_.emplace(latitudes, parameters.capillary_number, parameters.laplacian);
-  if (parameters.sigma0 > 0) tension_force_.emplace(parameters.sigma0);
+    bending_.emplace(surface_.grid(), BendingParameters{parameters.capillary_number, parameters.spontaneous_curvature,
+                                                        parameters.laplacian});
+  if (parameters.sigma0 > 0)
+    tension_force_.emplace(TensionParameters{parameters.sigma0, parameters.tension_law, parameters.tension_form});
   update_geometry();
   if (!(surface_.volume() > 0)) {
     std::ostringstream message;
@@ -46,10 +51,25 @@ Membrane::Membrane(const VectorField& initial_positions, int latitudes, const Me
   initial_areas_ = target_areas_ = surface_.area_weight();
   initial_area_ = surface_.area();
   initial_volume_ = surface_.volume();
+  conserve();
+}
+
+GeometryDetail Membrane::detail() const {
+  const bool curvature = bending_ || parameters_.area != AreaControl::none ||
+                         (tension_force_ && parameters_.tension_form == TensionForm::non_divergence);
+  return curvature ? GeometryDetail::curvature : GeometryDetail::first_form;
+}
+
+/// Takes the initial volume and area as those to be kept.
+void Membrane::conserve() {
+  Conserved conserved;
+  if (parameters_.volume == VolumeControl::projection) conserved.volume = initial_volume_;
+  if (parameters_.area == AreaControl::projection) conserved.area = initial_area_;
+  if (conserved.volume || conserved.area) conservation_.emplace(surface_.grid(), conserved);
 }
 
 void Membrane::update_geometry() {
-  surface_.update(positions_);
+  surface_.update(positions_, detail());
 }
 
 const VectorField& Membrane::compute_force() {
@@ -61,12 +81,14 @@ const VectorField& Membrane::compute_force() {
   }
   if (parameters_.volume == VolumeControl::penalty)
     add_volume_penalty(surface_, parameters_.volume_stiffness, initial_volume_, force_);
+  if (parameters_.area == AreaControl::penalty)
+    add_area_penalty(surface_, parameters_.area_stiffness, initial_area_, force_);
   return force_;
 }
 
 void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorField& filtered) {
   filter_.apply(surface_, velocity, filtered);
-  if (parameters_.volume == VolumeControl::projection) project_volume_rate(surface_, initial_volume_, dt, filtered);
+  if (conservation_) conservation_->correct_velocity(surface_, dt, filtered);
 }
 
 void Membrane::advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
@@ -78,10 +100,12 @@ void Membrane::advance(const VectorField& new_positions, const VectorField& velo
 
 double Membrane::energy() const {
   double sum = 0;
-  if (bending_) sum += bending_energy(surface_) / parameters_.capillary_number;
+  if (bending_) sum += bending_->energy(surface_);
   if (tension_force_) sum += tension_force_->energy(surface_, target_areas_);
   if (parameters_.volume == VolumeControl::penalty)
     sum += volume_penalty_energy(surface_, parameters_.volume_stiffness, initial_volume_);
+  if (parameters_.area == AreaControl::penalty)
+    sum += area_penalty_energy(surface_, parameters_.area_stiffness, initial_area_);
   return sum;
 }
 
@@ -102,6 +126,7 @@ void Membrane::restore(const MembraneState& state) {
   initial_areas_ = state.initial_areas;
   initial_area_ = initial_areas_.sum();
   initial_volume_ = state.initial_volume;
+  conserve();
   update_geometry();
 }
 

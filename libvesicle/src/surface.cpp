@@ -30,22 +30,26 @@ struct Surface::Work {
   ScalarField divergence;
 };
 
-Surface::Surface(int latitudes)
-    : grid_(latitudes),
-      harmonics_(latitudes, grid_, projector_fields),
+Surface::Surface(int latitudes) : Surface(SphereGrid(latitudes)) {}
+
+Surface::Surface(const SphereGrid& grid)
+    : grid_(grid),
+      harmonics_(grid_.latitudes(), grid_, projector_fields),
       geometry_(grid_),
       area_weight_(grid_.size()),
-      work_(std::make_unique<Work>(grid_.size())) {}
+      work_(std::make_unique<Work>(grid_.size())) {
+  check_argument(grid.latitudes() >= 4, "latitudes", grid.latitudes(), ">= 4");
+}
 Surface::~Surface() = default;
 Surface::Surface(Surface&&) noexcept = default;
 Surface& Surface::operator=(Surface&&) noexcept = default;
 
-void Surface::update(const VectorField& positions) {
+void Surface::update(const VectorField& positions, GeometryDetail detail) {
   check_markers(positions, "positions", grid_.size());
   check_finite(positions);
   positions_ = positions;
   harmonics_.analysis(positions_, coefficients_);
-  geometry_.update(harmonics_, coefficients_);
+  geometry_.update(harmonics_, coefficients_, detail);
   for (int j = 0; j < grid_.latitudes(); ++j) {
     const Eigen::Index ring = grid_.index(0, j);
     area_weight_.segment(ring, grid_.longitudes()) =
@@ -53,6 +57,11 @@ void Surface::update(const VectorField& positions) {
   }
   area_ = area_weight_.sum();
   volume_ = flux(positions_) / 3;
+}
+
+const SurfaceGeometry& Surface::geometry_with_curvature() const {
+  if (!geometry_.has_curvature()) geometry_.add_curvature(harmonics_, coefficients_);
+  return geometry_;
 }
 
 double Surface::integral(const ScalarField& field) const {

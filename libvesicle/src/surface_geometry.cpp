@@ -13,10 +13,22 @@ SurfaceGeometry::SurfaceGeometry(const SphereGrid& grid) {
   for (ScalarField* field : {&area_element_, &mean_curvature_, &gaussian_curvature_}) field->resize(grid.size());
 }
 
-void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coefficients& positions) {
+void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coefficients& positions,
+                             GeometryDetail detail) {
+  has_curvature_ = false;
   harmonics.gradient(positions, theta_, phi_);
-  harmonics.second_derivatives(positions, theta_theta_, theta_phi_, phi_phi_);
   update_first_form();
+  check_area_elements();
+  if (detail == GeometryDetail::curvature) add_curvature(harmonics, positions);
+}
+
+void SurfaceGeometry::add_curvature(const SphericalHarmonics& harmonics, const Coefficients& positions) {
+  harmonics.second_derivatives(positions, theta_theta_, theta_phi_, phi_phi_);
+  update_second_form();
+  has_curvature_ = true;
+}
+
+void SurfaceGeometry::check_area_elements() const {
   // X_theta is of the size of the surface everywhere. An area element that is only rounding beside it has no
   // normal.
   constexpr double rounding = 1e-13;
@@ -24,7 +36,6 @@ void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coeffici
   if (!std::isfinite(area_element_.sum()) || !(smallest > rounding * theta_.square().rowwise().sum().mean()))
     throw std::domain_error("degenerate surface: the smallest area element is " + std::to_string(smallest) +
                             "; the markers have folded or collapsed");
-  update_second_form();
 }
 
 void SurfaceGeometry::update_first_form() {

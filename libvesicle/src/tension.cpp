@@ -6,25 +6,39 @@
 
 namespace vesiflow::vesicle {
 
-TensionForce::TensionForce(double sigma0) : sigma0_(sigma0) {
-  check_argument(std::isfinite(sigma0) && sigma0 >= 0, "sigma0", sigma0, "finite and >= 0");
+TensionForce::TensionForce(const TensionParameters& parameters) : parameters_(parameters) {
+  check_argument(std::isfinite(parameters.sigma0) && parameters.sigma0 >= 0, "sigma0", parameters.sigma0,
+                 "finite and >= 0");
 }
 
 void TensionForce::evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const {
   check_markers(target_areas, "target_areas", surface.grid().size());
   const ScalarField& areas = surface.area_weight();
-  tension = sigma0_ * (target_areas / areas) * (areas / target_areas).log();
+  if (parameters_.law == TensionLaw::logarithmic)
+    tension = parameters_.sigma0 * (target_areas / areas) * (areas / target_areas).log();
+  else
+    tension = parameters_.sigma0 * (areas / target_areas - 1);
 }
 
 void TensionForce::add_to(const Surface& surface, const ScalarField& tension, VectorField& force) {
   check_markers(force, "force", surface.grid().size());
-  surface.projector_divergence(tension, divergence_);
-  force += divergence_;
+  if (parameters_.form == TensionForm::divergence) {
+    surface.projector_divergence(tension, force_);
+  } else {
+    surface.gradient(tension, force_);
+    for (int component = 0; component < 3; ++component)
+      force_.col(component) -= 2 * tension * surface.mean_curvature() * surface.normal().col(component);
+  }
+  force += force_;
 }
 
 double TensionForce::energy(const Surface& surface, const ScalarField& target_areas) const {
   check_markers(target_areas, "target_areas", surface.grid().size());
-  return 0.5 * sigma0_ * ((surface.area_weight() / target_areas).log().square() * target_areas).sum();
+  const ScalarField& areas = surface.area_weight();
+  const double sum = parameters_.law == TensionLaw::logarithmic
+                         ? ((areas / target_areas).log().square() * target_areas).sum()
+                         : ((areas / target_areas - 1).square() * target_areas).sum();
+  return 0.5 * parameters_.sigma0 * sum;
 }
 
 }  // namespace vesiflow::vesicle

@@ -17,10 +17,4 @@ double volume_penalty_energy(const Surface& surface, double stiffness, double ta
   return 0.5 * stiffness * excess * excess / target_volume;
 }
 
-void project_volume_rate(const Surface& surface, double target_volume, double dt, VectorField& velocity) {
-  check_argument(dt > 0, "dt", dt, "> 0");
-  const double rate = surface.flux(velocity) + (surface.volume() - target_volume) / dt;
-  velocity -= rate / surface.area() * surface.normal();
-}
-
 }  // namespace vesiflow::vesicle

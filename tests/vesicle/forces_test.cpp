@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support.h"
+#include "vesicle/area.h"
 #include "vesicle/bending.h"
 #include "vesicle/tension.h"
 #include "vesicle/volume.h"
@@ -52,36 +53,71 @@ class Forces : public ::testing::Test {
   VectorField force;
 };
 
-TEST_F(Forces, BendingIsMinusTheGradientOfItsEnergy) {
-  BendingForce(latitudes, 2.5, LaplacianForm::cartesian).add_to(surface, force);
+class BendingForms : public Forces, public ::testing::WithParamInterface<std::pair<double, LaplacianForm>> {};
+
+TEST_P(BendingForms, AreMinusTheGradientOfTheirEnergy) {
+  const auto [spontaneous_curvature, form] = GetParam();
+  BendingForce bending(surface.grid(), {.capillary_number = 2.5,
+                                        .spontaneous_curvature = spontaneous_curvature,
+                                        .laplacian = {form, Upsampling::twice, false}});
+  bending.add_to(surface, force);
   expect_minus_gradient(
       [&](const VectorField& x) {
         Surface s(latitudes);
         s.update(x);
-        return bending_energy(s) / 2.5;
+        return bending.energy(s);
       },
       1e-6);
+  expect_balanced(1e-7);
 }
 
-TEST_F(Forces, BendingIsBalancedAndScaleFree) {
-  BendingForce(latitudes, 1, LaplacianForm::cartesian).add_to(surface, force);
-  expect_balanced(1e-7);
+INSTANTIATE_TEST_SUITE_P(Forces, BendingForms,
+                         ::testing::Values(std::pair{0.0, LaplacianForm::cartesian},
+                                           std::pair{0.0, LaplacianForm::christoffel},
+                                           std::pair{0.7, LaplacianForm::cartesian},
+                                           std::pair{-1.3, LaplacianForm::cartesian}));
+
+TEST_F(Forces, BendingWithoutSpontaneousCurvatureIsScaleFree) {
+  BendingForce(surface.grid(), {}).add_to(surface, force);
   const double scale = surface.integral(ScalarField(force.matrix().rowwise().norm().array()));
   EXPECT_LT(std::abs(work(surface, force, shape)), 1e-7 * scale);
+}
+
+/// E = (1/2) int (H - H0)^2 changes under x -> (1 + s) x as H -> H/(1 + s), dA -> (1 + s)^2 dA: dE/ds = int (H0^2 - H0 H) dA.
+TEST_F(Forces, WorkOfASpontaneousCurvatureUnderScaling) {
+  constexpr double h0 = 0.7;
+  BendingForce(surface.grid(), {.capillary_number = 1, .spontaneous_curvature = h0, .laplacian = {}})
+      .add_to(surface, force);
+  const double slope = surface.integral(ScalarField(h0 * h0 - h0 * surface.mean_curvature()));
+  EXPECT_NEAR(-work(surface, force, shape), slope, 1e-8 * std::abs(slope));
 }
 
 TEST(Bending, EnergyOfASphereIsTwoPi) {
   Surface surface(24);
   surface.update(sphere(surface.grid(), {.effective_radius = 3, .centre = {1, -2, 5}}));
   EXPECT_NEAR(bending_energy(surface), 2 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(bending_energy(surface, 1.0 / 3), 0, 1e-12);
 }
 
-TEST_F(Forces, TensionIsMinusTheGradientOfItsEnergy) {
-  const TensionForce tension(600);
-  const ScalarField target = surface.area_weight() * (0.1 * testing::smooth_scalar(surface.grid(), 4, 41)).exp();
+struct TensionCase {
+  TensionLaw law;
+  TensionForm form;
+};
+
+class Tensions : public Forces, public ::testing::WithParamInterface<TensionCase> {
+ protected:
+  Tensions()
+      : tension({.sigma0 = 600, .law = GetParam().law, .form = GetParam().form}),
+        target(surface.area_weight() * (0.1 * testing::smooth_scalar(surface.grid(), 4, 41)).exp()) {}
+
+  TensionForce tension;
+  ScalarField target;
   ScalarField sigma;
+};
+
+TEST_P(Tensions, AreMinusTheGradientOfTheirEnergy) {
   tension.evaluate(surface, target, sigma);
-  TensionForce(600).add_to(surface, sigma, force);
+  tension.add_to(surface, sigma, force);
   expect_balanced(1e-9);
   expect_minus_gradient(
       [&](const VectorField& x) {
@@ -92,17 +128,30 @@ TEST_F(Forces, TensionIsMinusTheGradientOfItsEnergy) {
       1e-6);
 }
 
-TEST_F(Forces, TensionOfAUniformStretch) {
-  // On a sphere of twice the target area sigma = sigma0 ln(2) / 2, and F = -2 sigma n.
+/// Work of the tension under x -> (1 + s) x: -int F . x dA = 2 int sigma dA.
+TEST_P(Tensions, WorkUnderScaling) {
+  tension.evaluate(surface, target, sigma);
+  tension.add_to(surface, sigma, force);
+  const double expected = 2 * surface.integral(sigma);
+  EXPECT_NEAR(-work(surface, force, shape), expected, 1e-9 * std::abs(expected));
+}
+
+TEST_P(Tensions, OfAUniformStretch) {
+  // On a sphere of twice the target area sigma = sigma0 ln(2) / 2 or sigma0, and F = -2 sigma n.
   const VectorField x = sphere(surface.grid());
   surface.update(x);
-  TensionForce tension(3);
-  ScalarField sigma;
   tension.evaluate(surface, surface.area_weight() / 2, sigma);
-  EXPECT_LT((sigma - 1.5 * std::log(2.0)).abs().maxCoeff(), 1e-13);
+  const double expected = GetParam().law == TensionLaw::logarithmic ? 300 * std::log(2.0) : 600;
+  EXPECT_LT((sigma - expected).abs().maxCoeff(), 1e-10);
   tension.add_to(surface, sigma, force);
-  EXPECT_LT((force + 3 * std::log(2.0) * x).abs().maxCoeff(), 1e-11);
+  EXPECT_LT((force + 2 * expected * x).abs().maxCoeff(), 1e-8);
 }
+
+INSTANTIATE_TEST_SUITE_P(Forces, Tensions,
+                         ::testing::Values(TensionCase{TensionLaw::logarithmic, TensionForm::divergence},
+                                           TensionCase{TensionLaw::logarithmic, TensionForm::non_divergence},
+                                           TensionCase{TensionLaw::linear, TensionForm::divergence},
+                                           TensionCase{TensionLaw::linear, TensionForm::non_divergence}));
 
 TEST_F(Forces, VolumePenaltyIsMinusTheGradientOfItsEnergy) {
   const double target = 0.9 * surface.volume();
@@ -117,21 +166,29 @@ TEST_F(Forces, VolumePenaltyIsMinusTheGradientOfItsEnergy) {
       1e-6);
 }
 
-TEST_F(Forces, VolumeProjectionSetsTheFlux) {
-  VectorField velocity = smooth_vector(surface.grid(), 8, 51);
-  const double target = 1.01 * surface.volume();
-  project_volume_rate(surface, target, 0.125, velocity);
-  EXPECT_NEAR(surface.flux(velocity), -(surface.volume() - target) / 0.125, 1e-13);
+TEST_F(Forces, AreaPenaltyIsMinusTheGradientOfItsEnergy) {
+  const double target = 0.9 * surface.area();
+  add_area_penalty(surface, 1e3, target, force);
+  expect_balanced(1e-10);
+  expect_minus_gradient(
+      [&](const VectorField& x) {
+        Surface s(latitudes);
+        s.update(x);
+        return area_penalty_energy(s, 1e3, target);
+      },
+      1e-6);
 }
 
 TEST_F(Forces, RefuseBadArguments) {
-  EXPECT_THROW(BendingForce(8, 0, LaplacianForm::cartesian), std::invalid_argument);
-  EXPECT_THROW(TensionForce(-1), std::invalid_argument);
-  EXPECT_THROW(TensionForce(std::nan("")), std::invalid_argument);
+  const SphereGrid grid(8);
+  EXPECT_THROW(BendingForce(grid, {.capillary_number = 0, .laplacian = {}}), std::invalid_argument);
+  EXPECT_THROW(BendingForce(grid, {.spontaneous_curvature = std::nan(""), .laplacian = {}}), std::invalid_argument);
+  EXPECT_THROW(TensionForce({.sigma0 = -1}), std::invalid_argument);
+  EXPECT_THROW(TensionForce({.sigma0 = std::nan("")}), std::invalid_argument);
   EXPECT_THROW(add_volume_penalty(surface, 1, 0, force), std::invalid_argument);
-  EXPECT_THROW(project_volume_rate(surface, 1, 0, force), std::invalid_argument);
+  EXPECT_THROW(add_area_penalty(surface, 1, 0, force), std::invalid_argument);
   ScalarField sigma;
-  EXPECT_THROW(TensionForce(1).evaluate(surface, ScalarField::Ones(3), sigma), std::invalid_argument);
+  EXPECT_THROW(TensionForce({.sigma0 = 1}).evaluate(surface, ScalarField::Ones(3), sigma), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vesicle/curvature_laplacian.h"
+#include "vesicle/laplace_beltrami.h"
 #include "vesicle/membrane.h"
 #include "vesicle/mesh_control.h"
 
@@ -56,8 +56,14 @@ struct Scene {
     double sigma0 = 600.0;
     std::optional<double> g;  ///< dt sigma0/(4 mu h): another way to give sigma0
     vesicle::VolumeControl volume = vesicle::VolumeControl::projection;
-    double volume_stiffness = 1e5;  ///< c_v of Eq. (22), for volume = penalty
+    double volume_stiffness = 1e5;       ///< c_v of Eq. (22), for volume = penalty
+    double spontaneous_curvature = 0.0;  ///< H0, mean of the principal curvatures
+    vesicle::TensionLaw tension_law = vesicle::TensionLaw::logarithmic;
+    vesicle::TensionForm tension_form = vesicle::TensionForm::divergence;
+    vesicle::AreaControl area = vesicle::AreaControl::none;
+    double area_stiffness = 1e5;  ///< c_a, for area = penalty
     vesicle::LaplacianForm laplacian = vesicle::LaplacianForm::cartesian;
+    vesicle::Upsampling upsampling = vesicle::Upsampling::twice;
   } membrane;
   struct Mesh {
     int latitudes = 32;

@@ -2,7 +2,9 @@
 
 #include <optional>
 
+#include "vesicle/area.h"
 #include "vesicle/bending.h"
+#include "vesicle/conservation.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/surface.h"
 #include "vesicle/tension.h"
@@ -15,15 +17,27 @@ namespace vesiflow::vesicle {
 enum class VolumeControl {
   none,
   penalty,    ///< the force of Eq. (22), stiffness c_v
-  projection  ///< the marker velocity is corrected, see project_volume_rate
+  projection  ///< the marker velocity is corrected, see ConservationProjection
+};
+
+/// How the total area is kept, beside the tension that keeps local areas.
+enum class AreaControl {
+  none,
+  penalty,    ///< the force of add_area_penalty, stiffness c_a
+  projection  ///< the marker velocity is corrected, see ConservationProjection
 };
 
 struct MembraneParameters {
-  double capillary_number = 2.5;  ///< Ca > 0 of Eq. (21); infinity switches bending off
-  double sigma0 = 600;            ///< tension stiffness >= 0 of Eq. (31); 0 switches tension off
-  LaplacianForm laplacian = LaplacianForm::cartesian;
+  double capillary_number = 2.5;     ///< Ca > 0 of Eq. (21); infinity switches bending off
+  double spontaneous_curvature = 0;  ///< H0 of bending_energy
+  double sigma0 = 600;               ///< tension stiffness >= 0 of Eq. (31); 0 switches tension off
+  TensionLaw tension_law = TensionLaw::logarithmic;
+  TensionForm tension_form = TensionForm::divergence;
+  LaplacianOptions laplacian = {};
   VolumeControl volume = VolumeControl::projection;
   double volume_stiffness = 0;  ///< c_v >= 0 of Eq. (22), read for VolumeControl::penalty only
+  AreaControl area = AreaControl::none;
+  double area_stiffness = 0;  ///< c_a >= 0, read for AreaControl::penalty only
   FilterOrder filter = FilterOrder::velocity_first;
   int normal_degrees = 0;                         ///< degrees kept in the normal velocity; 0: the 2N/3 rule
   int tangential_degrees = 15;                    ///< degrees kept in the tangential velocity
@@ -57,7 +71,7 @@ class Membrane {
   /// update_geometry().
   const VectorField& compute_force();
 
-  /// filtered = mesh filter of the interpolated velocity, then the volume projection if chosen; both
+  /// filtered = mesh filter of the interpolated velocity, then the volume and area projections if chosen; both
   /// (markers, 3). The arguments must be distinct arrays.
   void filter_velocity(const VectorField& velocity, double dt, VectorField& filtered);
 
@@ -80,7 +94,7 @@ class Membrane {
   double initial_area() const { return initial_area_; }
   double initial_volume() const { return initial_volume_; }
 
-  /// bending_energy / Ca + E_sigma + penalty energy of the parts that are switched on, at the last geometry.
+  /// bending_energy / Ca + E_sigma + penalty energies of the parts that are switched on, at the last geometry.
   double energy() const;
 
   MembraneState state() const;
@@ -89,10 +103,15 @@ class Membrane {
   void restore(const MembraneState& state);
 
  private:
+  /// Detail of the geometry that every step needs.
+  GeometryDetail detail() const;
+  void conserve();
+
   MembraneParameters parameters_;
   Surface surface_;
   std::optional<BendingForce> bending_;
   std::optional<TensionForce> tension_force_;
+  std::optional<ConservationProjection> conservation_;
   MeshFilter filter_;
   TargetAreaUpdate target_area_update_;
 

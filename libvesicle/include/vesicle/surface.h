@@ -12,19 +12,23 @@ namespace vesiflow::vesicle {
 /// A closed surface of spherical topology given by its markers X_ij on a SphereGrid, with its geometry (Step
 /// 1 of Section 3.3) and its surface calculus (Eqs. (11) and (12)). Outputs go to arrays of the caller, which
 /// are resized when their size is wrong; with the right size nothing allocates. One thread at a time.
+///
+/// Only what is asked for is computed: update() computes the first form (tangents, normal, area), the curvatures follow when
+/// they are first asked for. Lap H is a matter of its own, see LaplaceBeltrami.
 class Surface {
  public:
-  /// @throws std::invalid_argument unless latitudes >= 4.
+  /// @throws std::invalid_argument unless there are at least 4 latitudes.
   explicit Surface(int latitudes);
+  explicit Surface(const SphereGrid& grid);
   ~Surface();
   Surface(Surface&&) noexcept;
   Surface& operator=(Surface&&) noexcept;
 
-  /// Takes new marker positions, shape (markers, 3), and recomputes all geometry. Nothing below is meaningful
-  /// before the first call.
+  /// Takes new marker positions, shape (markers, 3). Nothing below is meaningful before the first call. Asking here for curvatures
+  /// that will be needed is a little faster than asking for them later.
   /// @throws std::invalid_argument for a wrong size, std::domain_error for positions that are not finite
   /// (with the first such marker) or a degenerate mesh (see SurfaceGeometry).
-  void update(const VectorField& positions);
+  void update(const VectorField& positions, GeometryDetail detail = GeometryDetail::first_form);
 
   const SphereGrid& grid() const { return grid_; }
   /// Transforms with degrees n < latitudes on this grid.
@@ -32,14 +36,16 @@ class Surface {
 
   const VectorField& positions() const { return positions_; }
   const Coefficients& position_coefficients() const { return coefficients_; }
+  /// With what has been asked for so far, and with the curvatures.
   const SurfaceGeometry& geometry() const { return geometry_; }
+  const SurfaceGeometry& geometry_with_curvature() const;
 
   const VectorField& normal() const { return geometry_.normal(); }
   const VectorField& tangent_theta() const { return geometry_.tangent_theta(); }
   const VectorField& tangent_phi() const { return geometry_.tangent_phi(); }
   const ScalarField& area_element() const { return geometry_.area_element(); }
-  const ScalarField& mean_curvature() const { return geometry_.mean_curvature(); }
-  const ScalarField& gaussian_curvature() const { return geometry_.gaussian_curvature(); }
+  const ScalarField& mean_curvature() const { return geometry_with_curvature().mean_curvature(); }
+  const ScalarField& gaussian_curvature() const { return geometry_with_curvature().gaussian_curvature(); }
 
   /// dA_ij = |X_theta x X_phi|_ij w_j dphi / sin(theta_j); sums to area().
   const ScalarField& area_weight() const { return area_weight_; }
@@ -69,7 +75,7 @@ class Surface {
 
   SphereGrid grid_;
   SphericalHarmonics harmonics_;
-  SurfaceGeometry geometry_;
+  mutable SurfaceGeometry geometry_;  // the curvatures are computed on demand
   Coefficients coefficients_;
   VectorField positions_;
   ScalarField area_weight_;

@@ -5,6 +5,12 @@
 
 namespace vesiflow::vesicle {
 
+/// How much of the geometry is computed.
+enum class GeometryDetail {
+  first_form,  ///< tangents, dual tangents, normal, area element: needs first derivatives
+  curvature,   ///< and mean and Gaussian curvature: needs second derivatives
+};
+
 /// First and second fundamental forms of X(theta, phi) at the nodes of one grid, from the coefficients of X:
 /// tangents, normal, curvatures (Eq. (10)), area element, and the dual tangents
 ///   X^theta = (G X_theta - F X_phi) / (EG - F^2),  X^phi = (E X_phi - F X_theta) / (EG - F^2)
@@ -14,10 +20,16 @@ class SurfaceGeometry {
  public:
   explicit SurfaceGeometry(const SphereGrid& grid);
 
-  /// Recomputes everything. The harmonics must live on the grid of this geometry.
+  /// Recomputes the geometry up to the given detail. The harmonics must live on the grid of this geometry.
   /// @throws std::domain_error if an area element is zero or not finite: the markers have folded or
   /// collapsed.
-  void update(const SphericalHarmonics& harmonics, const Coefficients& positions);
+  void update(const SphericalHarmonics& harmonics, const Coefficients& positions,
+              GeometryDetail detail = GeometryDetail::curvature);
+
+  /// Adds the curvatures to a geometry of the same positions that lacks them.
+  void add_curvature(const SphericalHarmonics& harmonics, const Coefficients& positions);
+
+  bool has_curvature() const { return has_curvature_; }
 
   /// X_theta and X_phi.
   const VectorField& tangent_theta() const { return theta_; }
@@ -33,14 +45,21 @@ class SurfaceGeometry {
   /// |X_theta x X_phi| = sqrt(EG - F^2).
   const ScalarField& area_element() const { return area_element_; }
 
-  /// Mean of the principal curvatures, +1 on the unit sphere.
+  /// Mean of the principal curvatures, +1 on the unit sphere. This and all below are there if has_curvature().
   const ScalarField& mean_curvature() const { return mean_curvature_; }
   const ScalarField& gaussian_curvature() const { return gaussian_curvature_; }
 
+  /// Second derivatives of X.
+  const VectorField& theta_theta() const { return theta_theta_; }
+  const VectorField& theta_phi() const { return theta_phi_; }
+  const VectorField& phi_phi() const { return phi_phi_; }
+
  private:
+  void check_area_elements() const;
   void update_first_form();
   void update_second_form();
 
+  bool has_curvature_ = false;
   VectorField theta_, phi_, theta_theta_, theta_phi_, phi_phi_;
   VectorField dual_theta_, dual_phi_, normal_;
   ScalarField area_element_, mean_curvature_, gaussian_curvature_;

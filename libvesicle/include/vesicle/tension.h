@@ -5,30 +5,47 @@
 
 namespace vesiflow::vesicle {
 
-/// Elastic tension that keeps every surface element near its target area dA0, Eq. (31):
-///   sigma = sigma0 (dA0/dA) ln(dA/dA0).
-/// The ratio is taken of cell areas dA_ij, which is the ratio of the area elements |X_theta x X_phi|.
+/// Elastic energy of a surface element with target area dA0 and area dA = J dA0, and the tension sigma = dE/dA.
+enum class TensionLaw {
+  logarithmic,  ///< E = (sigma0/2) (ln J)^2 dA0, sigma = sigma0 (ln J) / J: Eq. (31)
+  linear,       ///< E = (sigma0/2) (J - 1)^2 dA0, sigma = sigma0 (J - 1): a spring
+};
+
+/// How the force of a tension is discretised. Both are the same for a smooth tension.
+enum class TensionForm {
+  divergence,  ///< F = div(sigma P), Eq. (20)
+  non_divergence,  ///< F = grad sigma - 2 sigma H n, Eq. (6): errors of sigma unbalance it, so that runs with a weak mesh filter
+                   ///< blow up (Section 4.2 of the paper)
+};
+
+struct TensionParameters {
+  double sigma0 = 600;  ///< stiffness, finite and >= 0
+  TensionLaw law = TensionLaw::logarithmic;
+  TensionForm form = TensionForm::divergence;
+};
+
+/// Elastic tension that keeps every surface element near its target area. The ratio J is taken of cell areas dA_ij, which
+/// is the ratio of the area elements |X_theta x X_phi|.
 class TensionForce {
  public:
   /// @throws std::invalid_argument unless sigma0 is finite and >= 0.
-  explicit TensionForce(double sigma0);
+  explicit TensionForce(const TensionParameters& parameters);
 
-  double sigma0() const { return sigma0_; }
+  const TensionParameters& parameters() const { return parameters_; }
 
   /// Tension at the markers for target cell areas of shape (markers), all > 0.
   /// @throws std::invalid_argument for a wrong number of target areas.
   void evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const;
 
-  /// Adds F_sigma = div(sigma P), the divergence form of Eq. (20), to `force`, shape (markers, 3), force per
-  /// unit area.
+  /// Adds F_sigma to `force`, shape (markers, 3), force per unit area.
   void add_to(const Surface& surface, const ScalarField& tension, VectorField& force);
 
-  /// E_sigma = (sigma0/2) sum ln(dA/dA0)^2 dA0, of which F_sigma is minus the derivative.
+  /// Elastic energy, of which F_sigma is minus the derivative.
   double energy(const Surface& surface, const ScalarField& target_areas) const;
 
  private:
-  double sigma0_;
-  VectorField divergence_;
+  TensionParameters parameters_;
+  VectorField force_;
 };
 
 }  // namespace vesiflow::vesicle

@@ -12,10 +12,4 @@ void add_volume_penalty(const Surface& surface, double stiffness, double target_
 /// (c_v/2) (V - V0)^2 / V0, of which the penalty force is minus the derivative.
 double volume_penalty_energy(const Surface& surface, double stiffness, double target_volume);
 
-/// Changes the normal velocity by a constant, U -= n [oint U . n dA + (V - V0)/dt] / A, so that afterwards
-/// oint U . n dA = -(V - V0)/dt: moving the markers with U for dt brings the volume V back to V0 to O(dt^2).
-/// velocity: shape (markers, 3).
-/// @throws std::invalid_argument unless dt > 0.
-void project_volume_rate(const Surface& surface, double target_volume, double dt, VectorField& velocity);
-
 }  // namespace vesiflow::vesicle

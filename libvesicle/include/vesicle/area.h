@@ -1,0 +1,18 @@
+#pragma once
+
+#include "vesicle/surface.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// Adds the force per unit area F_a = -c_a (A - A0)/A0 2 H n, which keeps the total area, to `force`, shape (markers, 3).
+/// @throws std::invalid_argument unless target_area > 0.
+void add_area_penalty(const Surface& surface, double stiffness, double target_area, VectorField& force);
+
+/// (c_a/2) (A - A0)^2 / A0, of which the penalty force is minus the derivative.
+double area_penalty_energy(const Surface& surface, double stiffness, double target_area);
+
+/// dA/dt of markers that move with `velocity`, shape (markers, 3): int 2 H U . n dA.
+double area_rate(const Surface& surface, const VectorField& velocity);
+
+}  // namespace vesiflow::vesicle

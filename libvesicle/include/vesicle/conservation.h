@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+
+#include "vesicle/surface.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// What a motion of the membrane must leave at these values; nothing given: nothing is corrected.
+struct Conserved {
+  std::optional<double> volume;
+  std::optional<double> area;
+};
+
+/// Corrects motions along the normal so that volume and area come out exactly. The correction is a combination of the
+/// derivatives n of the volume and 2 H n of the area: the smallest one in the L2 norm over the membrane. Nothing allocates after the
+/// first correction of each kind.
+class ConservationProjection {
+ public:
+  /// @throws std::invalid_argument unless a given volume and area are finite and > 0.
+  ConservationProjection(const SphereGrid& grid, const Conserved& conserved);
+
+  /// Velocity, shape (markers, 3): U += (a + 2 H b) n so that afterwards int U . n dA = -(V - V0)/dt and
+  /// int 2 H U . n dA = -(A - A0)/dt; moving with U for dt restores both to O(dt^2).
+  /// @throws std::invalid_argument unless dt > 0; std::domain_error if volume and area cannot both be met because H is nearly
+  /// constant (a sphere).
+  void correct_velocity(const Surface& surface, double dt, VectorField& velocity);
+
+  /// Displacement D, shape (markers, 3): D += (a + 2 H b) n, with n and H before the move, so that X + D encloses V0 and has
+  /// area A0 to a relative 1e-13. Newton's method; meant for D small beside the size of the surface.
+  /// @throws std::domain_error as above, or if the iteration does not converge.
+  void correct_displacement(const Surface& surface, VectorField& displacement);
+
+ private:
+  Eigen::Matrix2d gram(const Surface& surface) const;
+  Eigen::Vector2d multipliers(const Surface& surface, const Eigen::Vector2d& missing) const;
+  void add(const Surface& surface, const Eigen::Vector2d& multipliers, VectorField& motion) const;
+
+  SphereGrid grid_;
+  Conserved conserved_;
+  std::optional<Surface> moved_;  ///< made when a displacement is first corrected
+  VectorField positions_;
+};
+
+}  // namespace vesiflow::vesicle

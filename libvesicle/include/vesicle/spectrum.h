@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vesicle/coefficients.h"
+
+namespace vesiflow::vesicle {
+
+class Surface;
+
+/// Share of Lap H that may be unresolved before a warning is due.
+inline constexpr double default_resolution_tolerance = 0.01;
+
+/// How the energy of fields on the sphere is spread over the degrees of their expansion, and how fast it falls.
+class Spectrum {
+ public:
+  /// @throws std::invalid_argument for fewer than four degrees.
+  explicit Spectrum(const Coefficients& coefficients);
+
+  int degrees() const { return static_cast<int>(amplitude_.size()); }
+
+  /// Square root of the energy of each degree, sum_m |f_n^m|^2 over all fields and orders: shape (degrees).
+  const std::vector<double>& amplitude() const { return amplitude_; }
+
+  /// r >= 0 of the law A exp(-r n) that the amplitudes of the upper half of the degrees follow (those above round-off; least
+  /// squares in the logarithm of the larger of two neighbours, since symmetric shapes lack every other degree). 0: no decay.
+  double decay_rate() const { return decay_rate_; }
+
+  /// Amplitude of a degree by that law.
+  double extrapolated(double degree) const;
+
+  /// Share of the surface Laplacian that degrees from `degrees` on would add by that law:
+  ///   sqrt(sum_{n >= degrees} [n (n+1) a_n]^2 / sum_{n < p} [(1 + n (n+1)) a_n]^2).
+  /// Infinite if the spectrum does not decay.
+  double laplacian_tail(double degrees) const;
+
+ private:
+  void fit_tail();
+
+  std::vector<double> amplitude_;
+  double log_amplitude_ = 0;  ///< of the fitted law at degree 0
+  double decay_rate_ = 0;
+  double laplacian_scale_ = 0;
+};
+
+/// Spectrum of the mean curvature at the markers: what the bending force needs resolved. (The positions alone do not tell: an
+/// ellipsoid is of degree one.)
+Spectrum mean_curvature_spectrum(const Surface& surface);
+
+/// How well N latitudes resolve a shape.
+struct Resolution {
+  int latitudes = 0;
+  /// Share of Lap H that lies beyond degree N, see Spectrum::laplacian_tail.
+  double unresolved = 0;
+  /// Smallest multiple of 8 latitudes that leaves less than the tolerance unresolved; 0 if that is not below 512, the largest
+  /// number supported.
+  int needed_latitudes = 0;
+  double tolerance = 0;
+
+  bool sufficient() const { return unresolved <= tolerance; }
+};
+
+/// @throws std::invalid_argument unless tolerance > 0.
+Resolution resolution(const Surface& surface, double tolerance = default_resolution_tolerance);
+
+/// One sentence for people, e.g. "the shape needs N_theta >= 48 (it has 32): 4 % of ..."; empty if the resolution is sufficient.
+std::string resolution_warning(const Resolution& resolution);
+
+}  // namespace vesiflow::vesicle

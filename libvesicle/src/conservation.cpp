@@ -1,0 +1,95 @@
+#include "vesicle/conservation.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/LU>
+
+#include "check.h"
+#include "vesicle/area.h"
+
+namespace vesiflow::vesicle {
+namespace {
+
+void check_target(const std::optional<double>& target, const char* name) {
+  if (target) check_argument(std::isfinite(*target) && *target > 0, name, *target, "finite and > 0");
+}
+
+}  // namespace
+
+ConservationProjection::ConservationProjection(const SphereGrid& grid, const Conserved& conserved)
+    : grid_(grid), conserved_(conserved) {
+  check_target(conserved.volume, "target volume");
+  check_target(conserved.area, "target area");
+}
+
+/// int g_i g_j dA of the functions g = (1, 2 H).
+Eigen::Matrix2d ConservationProjection::gram(const Surface& surface) const {
+  const ScalarField& h = surface.mean_curvature();
+  const double mixed = 2 * (h * surface.area_weight()).sum();
+  const double square = 4 * (h.square() * surface.area_weight()).sum();
+  Eigen::Matrix2d matrix;
+  matrix << surface.area(), mixed, mixed, square;
+  return matrix;
+}
+
+/// The a and b for which (a + 2 H b) n adds `missing` to the rates of volume and area.
+Eigen::Vector2d ConservationProjection::multipliers(const Surface& surface, const Eigen::Vector2d& missing) const {
+  if (!conserved_.area) return {conserved_.volume ? missing[0] / surface.area() : 0, 0};
+  const Eigen::Matrix2d matrix = gram(surface);
+  if (!conserved_.volume) return {0, missing[1] / matrix(1, 1)};
+  constexpr double independent = 1e-10;
+  if (!(matrix.determinant() > independent * matrix(0, 0) * matrix(1, 1)))
+    throw std::domain_error(
+        "volume and area cannot both be kept: the mean curvature is constant to five digits, so every motion along the "
+        "normal changes them alike (a sphere); keep the volume alone");
+  return matrix.inverse() * missing;
+}
+
+void ConservationProjection::add(const Surface& surface, const Eigen::Vector2d& multipliers,
+                                 VectorField& motion) const {
+  for (int component = 0; component < 3; ++component) {
+    motion.col(component) += multipliers[0] * surface.normal().col(component);
+    if (multipliers[1] != 0)
+      motion.col(component) += 2 * multipliers[1] * surface.mean_curvature() * surface.normal().col(component);
+  }
+}
+
+void ConservationProjection::correct_velocity(const Surface& surface, double dt, VectorField& velocity) {
+  check_argument(dt > 0, "dt", dt, "> 0");
+  check_markers(velocity, "velocity", surface.grid().size());
+  Eigen::Vector2d missing = Eigen::Vector2d::Zero();
+  if (conserved_.volume) missing[0] = (*conserved_.volume - surface.volume()) / dt - surface.flux(velocity);
+  if (conserved_.area) missing[1] = (*conserved_.area - surface.area()) / dt - area_rate(surface, velocity);
+  add(surface, multipliers(surface, missing), velocity);
+}
+
+void ConservationProjection::correct_displacement(const Surface& surface, VectorField& displacement) {
+  check_markers(displacement, "displacement", surface.grid().size());
+  if (!conserved_.volume && !conserved_.area) return;
+  if (!moved_) moved_.emplace(grid_);
+  // The matrix is that of the surface before the move: the error falls by a factor of the size of D in each iteration.
+  constexpr int max_iterations = 50;
+  constexpr double tolerance = 1e-13;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    positions_ = surface.positions() + displacement;
+    moved_->update(positions_);
+    Eigen::Vector2d missing = Eigen::Vector2d::Zero();
+    double error = 0;
+    if (conserved_.volume) {
+      missing[0] = *conserved_.volume - moved_->volume();
+      error = std::max(error, std::abs(missing[0] / *conserved_.volume));
+    }
+    if (conserved_.area) {
+      missing[1] = *conserved_.area - moved_->area();
+      error = std::max(error, std::abs(missing[1] / *conserved_.area));
+    }
+    if (error < tolerance) return;
+    add(surface, multipliers(surface, missing), displacement);
+  }
+  throw std::domain_error("volume and area were not met after " + std::to_string(max_iterations) +
+                          " corrections: the displacement is too large, or no surface nearby has both");
+}
+
+}  // namespace vesiflow::vesicle

@@ -1,0 +1,119 @@
+#include "vesicle/conservation.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "support.h"
+#include "vesicle/area.h"
+
+namespace vesiflow::vesicle {
+namespace {
+
+using testing::smooth_vector;
+
+constexpr int latitudes = 24;
+
+class Conservation : public ::testing::Test {
+ protected:
+  Conservation() : surface(latitudes), motion(0.05 * smooth_vector(surface.grid(), 6, 61)) {
+    surface.update(ellipsoid(surface.grid(), {1, 1.3, 1.7}));
+  }
+
+  Surface moved(double dt) const {
+    Surface result(latitudes);
+    result.update(surface.positions() + dt * motion);
+    return result;
+  }
+
+  Surface surface;
+  VectorField motion;
+};
+
+/// area_rate against differences of the area itself.
+TEST_F(Conservation, AreaRateIsTheDerivativeOfTheArea) {
+  const double rate = testing::directional_derivative(
+      [](const VectorField& x) {
+        Surface s(latitudes);
+        s.update(x);
+        return s.area();
+      },
+      surface.positions(), motion, 1e-2);
+  EXPECT_NEAR(area_rate(surface, motion), rate, 1e-8 * std::abs(rate));
+}
+
+TEST_F(Conservation, CorrectedVelocityRestoresToSecondOrder) {
+  const Conserved target{1.001 * surface.volume(), 1.002 * surface.area()};
+  const VectorField velocity = motion;
+  double errors[2][2];
+  for (int k : {0, 1}) {
+    const double dt = k == 0 ? 0.1 : 0.05;
+    motion = velocity;
+    ConservationProjection projection(surface.grid(), {*target.volume, *target.area});
+    projection.correct_velocity(surface, dt, motion);
+    EXPECT_NEAR(surface.flux(motion) * dt, *target.volume - surface.volume(), 1e-13);
+    EXPECT_NEAR(area_rate(surface, motion) * dt, *target.area - surface.area(), 1e-12);
+    // Starting on the target the miss is of second order in dt.
+    motion = velocity;
+    ConservationProjection(surface.grid(), {surface.volume(), surface.area()}).correct_velocity(surface, dt, motion);
+    const Surface after = moved(dt);
+    errors[k][0] = std::abs(after.volume() - surface.volume());
+    errors[k][1] = std::abs(after.area() - surface.area());
+  }
+  EXPECT_NEAR(errors[0][0] / errors[1][0], 4, 0.2);
+  EXPECT_NEAR(errors[0][1] / errors[1][1], 4, 0.2);
+}
+
+TEST_F(Conservation, CorrectedDisplacementIsExact) {
+  for (const Conserved& target :
+       {Conserved{1.01 * surface.volume(), std::nullopt}, Conserved{std::nullopt, 1.01 * surface.area()},
+        Conserved{surface.volume(), surface.area()}, Conserved{}}) {
+    VectorField displacement = motion;
+    ConservationProjection(surface.grid(), target).correct_displacement(surface, displacement);
+    Surface after(latitudes);
+    after.update(surface.positions() + displacement);
+    if (target.volume) {
+      EXPECT_NEAR(after.volume() / *target.volume, 1, 2e-13);
+    }
+    if (target.area) {
+      EXPECT_NEAR(after.area() / *target.area, 1, 2e-13);
+    }
+    if (!target.volume && !target.area) {
+      EXPECT_TRUE((displacement == motion).all());
+    }
+  }
+}
+
+/// The correction is along span{n, 2 H n} and so leaves tangential motions alone.
+TEST_F(Conservation, CorrectionIsAlongTheNormal) {
+  VectorField corrected = motion;
+  ConservationProjection(surface.grid(), {surface.volume(), surface.area()}).correct_velocity(surface, 0.1, corrected);
+  const VectorField change = corrected - motion;
+  const ScalarField normal = (change * surface.normal()).rowwise().sum();
+  EXPECT_GT(normal.abs().maxCoeff(), 1e-4);
+  for (int component = 0; component < 3; ++component)
+    EXPECT_LT((change.col(component) - normal * surface.normal().col(component)).abs().maxCoeff(), 1e-15);
+}
+
+TEST_F(Conservation, SayWhyASphereCannotKeepBoth) {
+  surface.update(sphere(surface.grid()));
+  ConservationProjection both(surface.grid(), {surface.volume(), surface.area()});
+  EXPECT_THROW(both.correct_velocity(surface, 0.1, motion), std::domain_error);
+  ConservationProjection volume(surface.grid(), {surface.volume(), std::nullopt});
+  EXPECT_NO_THROW(volume.correct_velocity(surface, 0.1, motion));
+}
+
+TEST_F(Conservation, RefusesBadArguments) {
+  EXPECT_THROW(ConservationProjection(surface.grid(), {0.0, std::nullopt}), std::invalid_argument);
+  EXPECT_THROW(ConservationProjection(surface.grid(), {1.0, std::nan("")}), std::invalid_argument);
+  ConservationProjection projection(surface.grid(), {surface.volume(), std::nullopt});
+  EXPECT_THROW(projection.correct_velocity(surface, 0, motion), std::invalid_argument);
+  VectorField short_field = VectorField::Zero(3, 3);
+  EXPECT_THROW(projection.correct_velocity(surface, 1, short_field), std::invalid_argument);
+  // Half the volume at the same area is no small correction; the sphere's area is the least.
+  ConservationProjection impossible(surface.grid(), {surface.volume(), 0.5 * surface.area()});
+  EXPECT_THROW(impossible.correct_displacement(surface, motion), std::domain_error);
+}
+
+}  // namespace
+}  // namespace vesiflow::vesicle
