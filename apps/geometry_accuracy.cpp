@@ -24,14 +24,22 @@ const std::map<std::string, LaplacianForm> forms = {{"cartesian", LaplacianForm:
                                                     {"paper", LaplacianForm::paper}};
 const std::map<std::string, Upsampling> upsamplings = {
     {"1", Upsampling::none}, {"1.5", Upsampling::three_halves}, {"2", Upsampling::twice}};
+const std::map<std::string, bool> truncations = {{"false", false}, {"true", true}};
+
+template <class Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
 
 struct Arguments {
   std::vector<std::string> surfaces = {"sphere", "ellipsoid", "y32"};
   std::vector<int> latitudes = {16, 32, 64, 128};
   int sampling = 1;
-  std::vector<LaplacianForm> forms = {LaplacianForm::cartesian, LaplacianForm::christoffel, LaplacianForm::paper};
-  std::vector<Upsampling> upsamplings = {Upsampling::none, Upsampling::three_halves, Upsampling::twice};
-  std::vector<bool> truncated = {false, true};
+  std::vector<std::string> forms = names_of(::forms);
+  std::vector<std::string> upsamplings = names_of(::upsamplings);
+  std::vector<std::string> truncations = names_of(::truncations);
   bool json = false;
 };
 
@@ -48,32 +56,32 @@ void declare(CLI::App& command_line, Arguments& arguments) {
       .add_option("--sampling", arguments.sampling,
                   "1: sample the surface at the markers, as a simulation has it; 2: on twice the latitudes")
       ->check(CLI::IsMember({1, 2}));
-  command_line.add_option("--formula", arguments.forms, "forms of Lap H: cartesian, christoffel, paper (default all)")
-      ->transform(CLI::CheckedTransformer(forms).description(""));
-  command_line.add_option("--upsampling", arguments.upsamplings, "upsampling of Lap H: 1, 1.5, 2 (default all)")
-      ->transform(CLI::CheckedTransformer(upsamplings).description(""));
-  command_line
-      .add_option("--truncated", arguments.truncated, "true: Lap H cut to degrees n < N; false: not (default both)")
-      ->expected(1);
+  const auto add_choice = [&](const char* option, auto& chosen, const auto& values, const char* description) {
+    command_line.add_option(option, chosen, description)->default_str("all")->check(CLI::IsMember(names_of(values)));
+  };
+  add_choice("--formula", arguments.forms, forms, "forms of Lap H");
+  add_choice("--upsampling", arguments.upsamplings, upsamplings, "latitudes of the grid of Lap H, over N");
+  add_choice("--truncated", arguments.truncations, truncations, "true: Lap H cut to degrees n < N");
   command_line.add_flag("--json", arguments.json, "write a JSON list to standard output");
 }
 
 std::unique_ptr<SurfaceSource> surface_of(const std::string& name) {
   if (auto known = make_known_surface(name)) return known;
   const std::filesystem::path file(name);
-  if (!std::filesystem::exists(file))
-    throw InputError(fmt::format("--surface {}: must be one of {}, or a file", name,
-                                 fmt::join(known_surface_names(), ", ")));
+  if (!std::filesystem::is_regular_file(file))
+    throw InputError(
+        fmt::format("--surface {}: must be one of {}, or a file", name, fmt::join(known_surface_names(), ", ")));
   if (file.extension() == ".toml") return std::make_unique<ExpressionSurface>(file);
   return std::make_unique<CoefficientSurface>(file);
 }
 
 std::vector<LaplacianOptions> options_of(const Arguments& arguments) {
   std::vector<LaplacianOptions> options;
-  for (const LaplacianForm form : arguments.forms)
-    for (const bool truncated : arguments.truncated)
-      for (const Upsampling upsampling : arguments.upsamplings) {
-        const LaplacianOptions choice = {.form = form, .upsampling = upsampling, .truncated = truncated};
+  for (const std::string& form : arguments.forms)
+    for (const std::string& truncated : arguments.truncations)
+      for (const std::string& upsampling : arguments.upsamplings) {
+        const LaplacianOptions choice = {
+            .form = forms.at(form), .upsampling = upsamplings.at(upsampling), .truncated = truncations.at(truncated)};
         if (measurable(choice, arguments.sampling)) options.push_back(choice);
       }
   if (options.empty())
@@ -84,9 +92,10 @@ std::vector<LaplacianOptions> options_of(const Arguments& arguments) {
 
 int geometry_accuracy(int argc, char** argv) {
   Arguments arguments;
-  CLI::App command_line("Errors of mean curvature, Gaussian curvature and the surface Laplacian of the mean curvature "
-                        "(Table 1 of the paper).",
-                        "geometry_accuracy");
+  CLI::App command_line(
+      "Errors of mean curvature, Gaussian curvature and the surface Laplacian of the mean curvature "
+      "(Table 1 of the paper).",
+      "geometry_accuracy");
   declare(command_line, arguments);
   try {
     command_line.parse(argc, argv);

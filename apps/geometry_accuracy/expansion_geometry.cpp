@@ -39,10 +39,11 @@ Curvatures ExpansionGeometry::at_nodes(const Coefficients& positions) {
   on_fine_.analysis(gradient, coefficients);
   VectorField gradient_theta(nodes, 3), gradient_phi(nodes, 3);
   at_nodes_.gradient(coefficients, gradient_theta, gradient_phi);
-  return {.mean = node_geometry_.mean_curvature(),
-          .gaussian = node_geometry_.gaussian_curvature(),
-          .laplacian =
-              (gradient_theta * node_geometry_.dual_theta() + gradient_phi * node_geometry_.dual_phi()).rowwise().sum()};
+  return {
+      .mean = node_geometry_.mean_curvature(),
+      .gaussian = node_geometry_.gaussian_curvature(),
+      .laplacian =
+          (gradient_theta * node_geometry_.dual_theta() + gradient_phi * node_geometry_.dual_phi()).rowwise().sum()};
 }
 
 Coefficients expansion_of(const SurfaceSource& source, int latitudes) {

@@ -4,6 +4,7 @@
 #include <muParser.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -34,6 +35,7 @@ class Expression {
     } catch (const mu::Parser::exception_type& error) {
       refuse(message(error));
     }
+    unchecked(0.7, 1.3);
   }
   Expression(const Expression&) = delete;
 
@@ -41,7 +43,8 @@ class Expression {
   double operator()(double theta, double phi) {
     const double value = unchecked(theta, phi);
     if (!std::isfinite(value))
-      refuse(fmt::format("is {} at theta = {:.6g}, phi = {:.6g}: must be finite", value, theta, phi));
+      refuse(fmt::format("is {} at theta = {:.6g}, phi = {:.6g}: must be finite",
+                         std::isnan(value) ? "not a number" : "infinite", theta, phi));
     return value;
   }
 
@@ -49,7 +52,9 @@ class Expression {
     theta_ = theta;
     phi_ = phi;
     try {
-      return parser_.Eval();
+      const double value = parser_.Eval();
+      if (theta_ != theta || phi_ != phi) refuse("must not assign to theta or phi");
+      return value;
     } catch (const mu::Parser::exception_type& error) {
       refuse(message(error));
     }
@@ -90,15 +95,30 @@ void require_known_keys(const std::string& file, const toml::table& root) {
   }
 }
 
+bool is_free_name(std::string_view name) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+  constexpr std::string_view digits = "0123456789";
+  if (name.empty() || name == "theta" || name == "phi" || name == "pi" || digits.find(name[0]) != digits.npos)
+    return false;
+  return std::ranges::all_of(name,
+                             [&](char c) { return letters.find(c) != letters.npos || digits.find(c) != digits.npos; });
+}
+
 toml::table constants_of(const std::string& file, const toml::table& root) {
   const toml::node* const node = root.get("constants");
   if (node == nullptr) return {};
   if (!node->is_table())
     throw InputError(fmt::format("{}:{}: constants: must be a table of numbers", file, node->source().begin.line));
-  for (const auto& [key, value] : *node->as_table())
+  for (const auto& [key, value] : *node->as_table()) {
+    const std::string where = fmt::format("{}:{}: constants.{}", file, value.source().begin.line, key.str());
     if (!value.is_number() || !std::isfinite(*value.value<double>()))
-      throw InputError(fmt::format("{}:{}: constants.{}: must be a finite number", file, value.source().begin.line,
-                                   key.str()));
+      throw InputError(fmt::format("{}: must be a finite number", where));
+    if (!is_free_name(key.str()))
+      throw InputError(
+          fmt::format("{}: a constant must be named by letters, digits and _, not beginning with a digit, "
+                      "and not theta, phi or pi",
+                      where));
+  }
   return *node->as_table();
 }
 
@@ -126,7 +146,8 @@ class ExpressionSurface::Expressions {
 
   /// sin_theta and cos_theta are those of theta, without the rounding of theta itself.
   Vector3 position(double theta, double sin_theta, double cos_theta, double phi) {
-    if (!radial()) return {(*expressions_[0])(theta, phi), (*expressions_[1])(theta, phi), (*expressions_[2])(theta, phi)};
+    if (!radial())
+      return {(*expressions_[0])(theta, phi), (*expressions_[1])(theta, phi), (*expressions_[2])(theta, phi)};
     const double r = (*expressions_[0])(theta, phi);
     if (!(r > 0))
       expressions_[0]->refuse(fmt::format("is {:.6g} at theta = {:.6g}, phi = {:.6g}: must be > 0", r, theta, phi));
@@ -141,9 +162,10 @@ class ExpressionSurface::Expressions {
       const auto require_equal = [&](double theta, double phi, double theta2, double phi2) {
         const double a = expression->unchecked(theta, phi), b = expression->unchecked(theta2, phi2);
         if (!std::isfinite(a) || !std::isfinite(b) || std::abs(a - b) <= tolerance * (1 + std::abs(a))) return;
-        expression->refuse(fmt::format("is {:.6g} at theta = {:.6g}, phi = {:.6g} but {:.6g} at theta = {:.6g}, phi = "
-                                       "{:.6g}, the same point of the sphere: the surface is not closed",
-                                       a, theta, phi, b, theta2, phi2));
+        expression->refuse(
+            fmt::format("is {:.6g} at theta = {:.6g}, phi = {:.6g} but {:.6g} at theta = {:.6g}, phi = "
+                        "{:.6g}, the same point of the sphere: the surface is not closed",
+                        a, theta, phi, b, theta2, phi2));
       };
       for (int k = 1; k < 8; ++k)
         for (const double phi : {0.0, 0.7, 2.1, 4.2}) require_equal(k * pi / 8, phi, k * pi / 8, phi + 2 * pi);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "geometry_accuracy/expansion_geometry.h"
@@ -16,13 +17,24 @@ double max_difference(const ScalarField& a, const ScalarField& b) {
   return (a - b).abs().maxCoeff();
 }
 
+// Runs a computation on the surface of a measurement and says which surface and grid it was that failed.
+template <class Computation>
+void refuse_degenerate(const Measurement& measurement, const Computation& computation) {
+  try {
+    computation();
+  } catch (const std::domain_error& error) {
+    throw InputError(
+        fmt::format("{} on {} latitudes: {}", measurement.surface->name(), measurement.latitudes, error.what()));
+  }
+}
+
 // The computation of a simulation: everything from positions at the nodes.
 void measure_sampled_at_nodes(const std::vector<Reference>& references, const std::vector<LaplacianOptions>& options,
                               std::vector<Measurement>& measurements) {
   std::vector<Surface> surfaces;
   for (std::size_t s = 0; s < measurements.size(); ++s) {
     Surface& surface = surfaces.emplace_back(measurements[s].latitudes);
-    surface.update(measurements[s].surface->sample(surface.grid()));
+    refuse_degenerate(measurements[s], [&] { surface.update(measurements[s].surface->sample(surface.grid())); });
     measurements[s].mean = max_difference(surface.mean_curvature(), references[s].values.mean);
     measurements[s].gaussian = max_difference(surface.gaussian_curvature(), references[s].values.gaussian);
   }
@@ -30,7 +42,7 @@ void measure_sampled_at_nodes(const std::vector<Reference>& references, const st
   for (const LaplacianOptions& choice : options) {
     LaplaceBeltrami laplace_beltrami(surfaces.front().grid(), choice);
     for (std::size_t s = 0; s < measurements.size(); ++s) {
-      laplace_beltrami.of_mean_curvature(surfaces[s], laplacian);
+      refuse_degenerate(measurements[s], [&] { laplace_beltrami.of_mean_curvature(surfaces[s], laplacian); });
       measurements[s].laplacians.push_back({choice, max_difference(laplacian, references[s].values.laplacian)});
     }
   }
@@ -44,16 +56,19 @@ std::vector<Measurement> measure_on_grid(const Surfaces& surfaces, int latitudes
   std::vector<Measurement> measurements;
   for (const auto& surface : surfaces) {
     const Reference& reference = references.emplace_back(surface->reference(nodes));
-    Coefficients positions = expansion_of(*surface, 2 * latitudes);
-    const CurvatureErrors errors = max_difference(fine.at_nodes(positions), reference.values);
-    positions.truncate(latitudes);
     Measurement& measurement = measurements.emplace_back();
     measurement.surface = surface.get();
     measurement.latitudes = latitudes;
     measurement.sampling = sampling;
-    measurement.truncated_surface = max_difference(fine.at_nodes(positions), reference.values);
     measurement.reference_degrees = reference.degrees;
     measurement.reference_estimate = reference.estimate;
+    CurvatureErrors errors;
+    refuse_degenerate(measurement, [&] {
+      Coefficients positions = expansion_of(*surface, 2 * latitudes);
+      errors = max_difference(fine.at_nodes(positions), reference.values);
+      positions.truncate(latitudes);
+      measurement.truncated_surface = max_difference(fine.at_nodes(positions), reference.values);
+    });
     if (sampling == 1) continue;
     measurement.mean = errors.mean;
     measurement.gaussian = errors.gaussian;
@@ -74,13 +89,8 @@ CurvatureErrors max_difference(const Curvatures& a, const Curvatures& b) {
 std::vector<Measurement> measure(const Surfaces& surfaces, const std::vector<int>& latitudes, int sampling,
                                  const std::vector<LaplacianOptions>& options) {
   std::vector<Measurement> result;
-  for (const int n : latitudes) {
-    try {
-      std::ranges::move(measure_on_grid(surfaces, n, sampling, options), std::back_inserter(result));
-    } catch (const std::domain_error& error) {
-      throw InputError(fmt::format("--latitudes {}: {}", n, error.what()));
-    }
-  }
+  for (const int n : latitudes)
+    std::ranges::move(measure_on_grid(surfaces, n, sampling, options), std::back_inserter(result));
   // Grids outermost above, because an operator is costly to set up; surfaces outermost for the reader.
   const auto position = [&](const Measurement& m) {
     return std::ranges::find_if(surfaces, [&](const auto& surface) { return surface.get() == m.surface; });
@@ -90,6 +100,6 @@ std::vector<Measurement> measure(const Surfaces& surfaces, const std::vector<int
 }
 
 bool measurable(const LaplacianOptions& options, int sampling) {
-  return sampling == 1 || (options.form == LaplacianForm::cartesian && options.upsampling == Upsampling::twice &&
-                           !options.truncated);
+  return sampling == 1 ||
+         (options.form == LaplacianForm::cartesian && options.upsampling == Upsampling::twice && !options.truncated);
 }

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "geometry_accuracy/paper_table.h"
@@ -18,6 +21,18 @@ using Text = std::back_insert_iterator<std::string>;
 
 std::string number(double value) {
   return fmt::format("{:.2e}", value);
+}
+
+std::string name_of(LaplacianForm form) {
+  switch (form) {
+    case LaplacianForm::cartesian:
+      return "cartesian";
+    case LaplacianForm::christoffel:
+      return "christoffel";
+    case LaplacianForm::paper:
+      return "paper";
+  }
+  throw std::logic_error("unknown form of the Laplacian");
 }
 
 // The Table 1 column that an upsampling factor belongs beside: none has 1.5.
@@ -59,14 +74,28 @@ void print_laplacians(Text text, std::span<const Measurement> grids) {
   }
 }
 
+// Errors that the reference is not good enough to tell.
+std::string unmeasured(const Measurement& m) {
+  constexpr double needed = 0.1;
+  double laplacian = std::numeric_limits<double>::infinity();
+  for (const LaplacianError& found : m.laplacians) laplacian = std::min(laplacian, found.error);
+  std::vector<std::string> names;
+  if (m.reference_estimate.mean > needed * m.mean) names.push_back("H");
+  if (m.reference_estimate.gaussian > needed * m.gaussian) names.push_back("K");
+  if (m.reference_estimate.laplacian > needed * laplacian) names.push_back("Lap H");
+  if (names.empty()) return {};
+  return fmt::format(": too near the errors of {} to measure them", fmt::join(names, ", "));
+}
+
 void print_reference(Text text, std::span<const Measurement> grids) {
   for (const Measurement& m : grids) {
     if (m.reference_degrees == 0) continue;
-    fmt::format_to(text,
-                   "N = {}: errors are against the expansion of {} degrees; that of {} degrees differs from it by {} in "
-                   "H, {} in K, {} in Lap H\n",
-                   m.latitudes, m.reference_degrees, m.reference_degrees / 4 * 3, number(m.reference_estimate.mean),
-                   number(m.reference_estimate.gaussian), number(m.reference_estimate.laplacian));
+    fmt::format_to(
+        text,
+        "N = {}: errors are against the expansion of {} degrees; that of {} degrees differs from it by {} in "
+        "H, {} in K, {} in Lap H{}\n",
+        m.latitudes, m.reference_degrees, m.reference_degrees / 4 * 3, number(m.reference_estimate.mean),
+        number(m.reference_estimate.gaussian), number(m.reference_estimate.laplacian), unmeasured(m));
   }
 }
 
@@ -74,8 +103,7 @@ void print_verdicts(Text text, std::span<const Measurement> grids) {
   for (const Measurement& m : grids)
     for (const Verdict& verdict : verdicts(m))
       fmt::format_to(text, "target {:<5} N = {:<3}  {} <= {}: {}\n", verdict.quantity, m.latitudes,
-                     number(verdict.found), number(verdict.limit),
-                     verdict.met() ? "met" : "missed: " + verdict.reason);
+                     number(verdict.found), number(verdict.limit), verdict.met() ? "met" : "missed: " + verdict.reason);
 }
 
 nlohmann::ordered_json or_null(const PaperRow* paper, double value) {
@@ -84,32 +112,16 @@ nlohmann::ordered_json or_null(const PaperRow* paper, double value) {
 
 }  // namespace
 
-std::string name_of(LaplacianForm form) {
-  switch (form) {
-    case LaplacianForm::cartesian: return "cartesian";
-    case LaplacianForm::christoffel: return "christoffel";
-    case LaplacianForm::paper: return "paper";
-  }
-  throw std::logic_error("unknown form of the Laplacian");
-}
-
-double factor_of(Upsampling upsampling) {
-  switch (upsampling) {
-    case Upsampling::none: return 1;
-    case Upsampling::three_halves: return 1.5;
-    case Upsampling::twice: return 2;
-    default: throw std::logic_error("the upsampling has no fixed factor");
-  }
-}
-
 std::string text_report(const std::vector<Measurement>& measurements) {
   std::string result;
   const Text text(result);
   for (auto first = measurements.begin(); first != measurements.end();) {
-    const auto last = std::find_if(first, measurements.end(), [&](const auto& m) { return m.surface != first->surface; });
+    const auto last =
+        std::find_if(first, measurements.end(), [&](const auto& m) { return m.surface != first->surface; });
     const std::span<const Measurement> grids(first, last);
-    fmt::format_to(text, "{}: {}; sampled on {} latitudes\n\n", first->surface->name(), first->surface->description(),
-                   first->sampling == 1 ? "N" : "2 N");
+    fmt::format_to(
+        text, "{}: {}; sampled on {}\n\n", first->surface->name(), first->surface->description(),
+        first->sampling == 1 ? "N latitudes" : "2 N latitudes, without the degrees that hold nothing but rounding");
     print_curvatures(text, grids);
     fmt::format_to(text, "\n");
     print_laplacians(text, grids);
@@ -119,10 +131,11 @@ std::string text_report(const std::vector<Measurement>& measurements) {
     fmt::format_to(text, "\n");
     first = last;
   }
-  fmt::format_to(text,
-                 "Largest errors over the markers of N latitudes and 2 N longitudes. cut: exact geometry of the surface "
-                 "with its\nexpansion cut to degrees n < N. Lap H, full: all computed degrees evaluated at the markers; "
-                 "truncated: degrees n < N.\n");
+  fmt::format_to(
+      text,
+      "Largest errors over the markers of N latitudes and 2 N longitudes. cut: exact geometry of the surface "
+      "with its\nexpansion cut to degrees n < N. Lap H, full: all computed degrees evaluated at the markers; "
+      "truncated: degrees n < N.\n");
   return result;
 }
 
@@ -137,7 +150,7 @@ std::string json_report(const std::vector<Measurement>& measurements) {
           {"surface", m.surface->name()},
           {"latitudes", m.latitudes},
           {"formula", name_of(laplacian.options.form)},
-          {"upsampling", factor_of(upsampling)},
+          {"upsampling", factor(upsampling)},
           {"truncated", laplacian.options.truncated},
           {"sampling", m.sampling},
           {"error_H", m.mean},
@@ -145,10 +158,10 @@ std::string json_report(const std::vector<Measurement>& measurements) {
           {"error_lapH", laplacian.error},
           {"paper_H", or_null(paper, paper ? paper->mean : 0)},
           {"paper_K", or_null(paper, paper ? paper->gaussian : 0)},
-          {"paper_lapH", or_null(has_column ? paper : nullptr,
-                                 !has_column                      ? 0
-                                 : upsampling == Upsampling::none ? paper->laplacian
-                                                                  : paper->laplacian_upsampled)},
+          {"paper_lapH",
+           or_null(has_column ? paper : nullptr, !has_column                      ? 0
+                                                 : upsampling == Upsampling::none ? paper->laplacian
+                                                                                  : paper->laplacian_upsampled)},
           {"truncated_surface_H", m.truncated_surface.mean},
           {"truncated_surface_K", m.truncated_surface.gaussian},
           {"reference_error_H", m.reference_estimate.mean},

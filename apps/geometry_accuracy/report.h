@@ -10,7 +10,3 @@ std::string text_report(const std::vector<Measurement>& measurements);
 
 /// A list of one object per surface, grid and form of Lap H.
 std::string json_report(const std::vector<Measurement>& measurements);
-
-std::string name_of(vesiflow::vesicle::LaplacianForm form);
-/// 1, 1.5 or 2.
-double factor_of(vesiflow::vesicle::Upsampling upsampling);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "geometry_accuracy/expansion_geometry.h"
+#include "vesicle/shapes.h"
 #include "vesicle/surface.h"
 
 using namespace vesiflow::vesicle;
@@ -15,9 +16,7 @@ Coefficients SampledSurface::expansion(int degrees) const {
 }
 
 Reference SampledSurface::reference(const SphereGrid& nodes) const {
-  const auto evaluate = [&](int degrees) {
-    return ExpansionGeometry(degrees, nodes).at_nodes(expansion(degrees));
-  };
+  const auto evaluate = [&](int degrees) { return ExpansionGeometry(degrees, nodes).at_nodes(expansion(degrees)); };
   Reference result;
   result.degrees = std::clamp(4 * nodes.latitudes(), 256, 512);
   try {
@@ -36,9 +35,11 @@ void SampledSurface::require_closed_and_outward() const {
   } catch (const std::domain_error& error) {
     throw InputError(fmt::format("{}: {}", name(), error.what()));
   }
-  if (!(surface.volume() > 0))
+  // Not 0: a surface that turns back on itself encloses nothing but rounding.
+  constexpr double smallest_reduced_volume = 1e-3;
+  if (!(surface.volume() > 0) || reduced_volume(surface.area(), surface.volume()) < smallest_reduced_volume)
     throw InputError(
-        fmt::format("{}: the volume is {:.6g}: must be > 0; X_theta x X_phi must point outward (theta is the angle "
-                    "from the north pole, phi turns eastward)",
-                    name(), surface.volume()));
+        fmt::format("{}: the volume is {:.3g} with an area of {:.3g}: must be > 0 (reduced volume >= {}); X_theta x "
+                    "X_phi must point outward, with theta the angle from the north pole and phi turning eastward",
+                    name(), surface.volume(), surface.area(), smallest_reduced_volume));
 }

@@ -28,7 +28,7 @@ CurvatureErrors max_difference(const Curvatures& a, const Curvatures& b);
 /// What the computed curvatures are compared with.
 struct Reference {
   Curvatures values;
-  int degrees = 0;          ///< of the expansion it was evaluated from; 0 for closed forms
+  int degrees = 0;           ///< of the expansion it was evaluated from; 0 for closed forms
   CurvatureErrors estimate;  ///< of its own error; zero for closed forms
 };
 
