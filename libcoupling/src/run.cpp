@@ -71,6 +71,7 @@ class Run {
   void start();
   void rewind_files();
   void record(bool last);
+  void warn_of_resolution();
   void checkpoint();
   void finish(const std::string& status);
   [[noreturn]] void stop(const SimulationStopped& reason);
@@ -83,6 +84,8 @@ class Run {
   std::optional<FluidSnapshots> fluid_snapshots_;
   std::optional<std::filesystem::path> last_checkpoint_;
   long checkpointed_step_ = -1;
+  std::vector<bool> warned_;  ///< of the resolution, per vesicle
+  std::optional<Progress> progress_;
   RunRecord record_;
 };
 
@@ -148,11 +151,27 @@ void Run::record(bool last) {
   const long step = simulation_.steps();
   const double time = simulation_.time(), dt = simulation_.scene().time.step;
   const auto wanted = [&](double every) { return every > 0.0 && (last || step == 0 || due(every, time, dt)); };
-  if (wanted(output.diagnostics_every) && table_->last_step() < step) table_->write(simulation_);
+  if (wanted(output.diagnostics_every) && table_->last_step() < step) {
+    table_->write(simulation_);
+    warn_of_resolution();
+  }
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) vesicle_snapshots_->write(simulation_);
   if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) fluid_snapshots_->write(simulation_);
   const bool at_start = step == 0 && !last;  // nothing to lose yet
   if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step) checkpoint();
+}
+
+// Says once for each vesicle that its mesh has become too coarse for its shape.
+void Run::warn_of_resolution() {
+  warned_.resize(simulation_.scene().vesicles.size());
+  for (std::size_t i = 0; i < warned_.size(); ++i) {
+    if (warned_[i]) continue;
+    const std::string warning = vesicle::resolution_warning(vesicle::resolution(simulation_.membrane(i).surface()));
+    if (warning.empty()) continue;
+    progress_->finish();
+    spdlog::warn("vesicle {} at t = {:.4g}: {}; see mesh.latitudes", i, simulation_.time(), warning);
+    warned_[i] = true;
+  }
 }
 
 void Run::finish(const std::string& status) {
@@ -173,7 +192,7 @@ RunStatus Run::execute() {
   start();
   const InterruptGuard guard;
   const long last = simulation_.scene().steps();
-  Progress progress(options_.quiet, simulation_.steps(), last);
+  progress_.emplace(options_.quiet, simulation_.steps(), last);
   try {
     PhaseTimer timer(record_.wall_seconds);
     record(simulation_.steps() >= last);
@@ -185,14 +204,14 @@ RunStatus Run::execute() {
       const PhaseTimer timer(record_.wall_seconds);
       simulation_.step();
       ++record_.steps_taken;
-      progress.update(simulation_);
+      progress_->update(simulation_);
       record(simulation_.steps() == last);
     } catch (const SimulationStopped& reason) {
-      progress.finish();
+      progress_->finish();
       stop(reason);
     }
   }
-  progress.finish();
+  progress_->finish();
   const bool completed = simulation_.steps() >= last;
   if (!completed) record(true);
   finish(completed ? "completed" : "interrupted");

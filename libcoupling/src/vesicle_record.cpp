@@ -15,7 +15,10 @@ void visit_record(const vesicle::Diagnostics& d,
   number("max_label_area_error", d.max_label_area_error);
   number("surface_divergence_max", d.surface_divergence_max);
   number("bending_energy", d.bending_energy);
+  number("elastic_energy", d.elastic_energy);
   number("reduced_volume", d.reduced_volume);
+  number("excess_area", d.excess_area);
+  number("deformation", d.deformation);
   number("area", d.area);
   number("volume", d.volume);
   visit("centroid", d.centroid.data(), 3);
@@ -23,6 +26,8 @@ void visit_record(const vesicle::Diagnostics& d,
   number("tension_min", d.tension_min);
   number("tension_max", d.tension_max);
   number("spectrum_tail", d.spectrum_tail);
+  number("unresolved_bending", d.resolution.unresolved);
+  number("needed_latitudes", d.resolution.needed_latitudes);
 }
 
 }  // namespace vesiflow::coupling

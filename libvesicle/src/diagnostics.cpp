@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Eigenvalues>
 
@@ -50,6 +51,17 @@ VolumeMoments volume_moments(const Surface& surface) {
   return moments;
 }
 
+double deformation(const VolumeMoments& moments) {
+  const double longest = moments.semi_axes[0];
+  const double shortest = moments.semi_axes[2];
+  return (longest - shortest) / (longest + shortest);
+}
+
+double excess_area(double area, double volume) {
+  const double radius = std::cbrt(3 * volume / (4 * std::numbers::pi));
+  return area / (radius * radius) - 4 * std::numbers::pi;
+}
+
 double inclination_angle(const VolumeMoments& moments) {
   constexpr double tolerance = 1e-8;
   const double x = moments.directions(0, 0);
@@ -94,21 +106,25 @@ Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity
   d.area = surface.area();
   d.volume = surface.volume();
   d.reduced_volume = reduced_volume(d.area, d.volume);
+  d.excess_area = excess_area(d.area, d.volume);
   d.area_error = d.area / membrane.initial_area() - 1;
   d.volume_error = d.volume / membrane.initial_volume() - 1;
   d.centroid = moments.centroid;
   d.second_moments = moments.second_moments;
   d.semi_axes = moments.semi_axes;
   d.directions = moments.directions;
+  d.deformation = deformation(moments);
   d.inclination_angle = inclination_angle(moments);
   d.tank_treading_frequency = tank_treading_frequency(surface, moments.centroid, marker_velocity);
   d.surface_divergence_max = surface.max_divergence(mesh_velocity);
   d.max_local_area_error = (areas / membrane.target_areas() - 1).abs().maxCoeff();
   d.max_label_area_error = (areas / membrane.initial_areas() - 1).abs().maxCoeff();
-  d.bending_energy = bending_energy(surface);
+  d.bending_energy = bending_energy(surface, membrane.parameters().spontaneous_curvature);
+  d.elastic_energy = membrane.elastic_energy();
   d.tension_min = membrane.tension().minCoeff();
   d.tension_max = membrane.tension().maxCoeff();
   d.spectrum_tail = spectrum_tail(surface);
+  d.resolution = resolution(surface);
   return d;
 }
 

@@ -1,111 +1,148 @@
 #include "legendre_tables.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "gauss_legendre.h"
 
 namespace vesiflow::vesicle {
 namespace {
 
-/// Values indexed by degree n and order m, 0 <= m <= n < degrees, at one colatitude.
+/// Values by degree n and order m, 0 <= m <= n < degrees, in extended precision.
 class Triangle {
  public:
-  explicit Triangle(int degrees) : degrees_(degrees), data_(std::size_t(degrees) * degrees) {}
-  long double& operator()(int n, int m) { return data_[std::size_t(n) * degrees_ + m]; }
+  explicit Triangle(int degrees) : data_(std::size_t(degrees) * (degrees + 1) / 2) {}
+  long double& operator()(int n, int m) { return data_[std::size_t(n) * (n + 1) / 2 + m]; }
+  long double operator()(int n, int m) const { return data_[std::size_t(n) * (n + 1) / 2 + m]; }
 
   /// Extended to m = -1 by antisymmetry (which is what no Condon-Shortley phase means) and to m > n by zero.
   long double extended(int n, int m) const {
     if (m > n) return 0;
-    return m < 0 ? -data_[std::size_t(n) * degrees_ + 1] : data_[std::size_t(n) * degrees_ + m];
+    return m < 0 ? -(*this)(n, 1) : (*this)(n, m);
   }
 
  private:
-  int degrees_;
   std::vector<long double> data_;
 };
 
-void fill_legendre(long double theta, int degrees, Triangle& p) {
-  const long double x = std::cos(theta);
-  const long double s = std::sin(theta);
-  long double diagonal = std::sqrt(1 / (4 * std::numbers::pi_v<long double>));
-  for (int m = 0; m < degrees; ++m) {
-    if (m > 0) diagonal *= s * std::sqrt((2 * m + 1) / (2.0L * m));
-    p(m, m) = diagonal;
-    if (m + 1 < degrees) p(m + 1, m) = std::sqrt(2.0L * m + 3) * x * diagonal;
-    for (int n = m + 2; n < degrees; ++n) {
-      const long double nn = static_cast<long double>(n) * n;
-      const long double kk = static_cast<long double>(n - 1) * (n - 1);
-      const long double mm = static_cast<long double>(m) * m;
-      const long double a = std::sqrt((4 * nn - 1) / (nn - mm));
-      const long double b = std::sqrt((kk - mm) / (4 * kk - 1));
-      p(n, m) = a * (x * p(n - 1, m) - b * p(n - 2, m));
-    }
-  }
-}
-
-/// d/dtheta of an expansion table by the ladder formula; applies to derivatives as well as to values.
-void differentiate(const Triangle& from, int degrees, Triangle& to) {
-  for (int n = 0; n < degrees; ++n)
-    for (int m = 0; m <= n; ++m) {
-      if (n == 0) {
-        to(0, 0) = 0;
-        continue;
-      }
-      const long double down = std::sqrt(static_cast<long double>(n + m) * (n - m + 1));
-      const long double up = std::sqrt(static_cast<long double>(n - m) * (n + m + 1));
-      to(n, m) = (down * from.extended(n, m - 1) - up * from.extended(n, m + 1)) / 2;
-    }
-}
-
-/// High orders decay like sin(theta)^m towards the poles. What no coefficient can lift to round-off is stored
-/// as zero: it would otherwise breed denormal numbers, which are a hundred times slower.
-double flushed(long double value) {
-  constexpr long double negligible = 1e-150L;
-  return std::abs(value) < negligible ? 0.0 : static_cast<double>(value);
-}
-
-/// Calls store(j, n, m, value) for all northern latitudes j.
-template <class Store>
-void for_each_entry(LegendreKind kind, int degrees, int latitudes, const GaussLegendre& rule, Store store) {
-  Triangle values(degrees), derivatives(degrees);
-  for (int j = 0; j < (latitudes + 1) / 2; ++j) {
-    fill_legendre(rule.colatitude[j], degrees, values);
-    for (int order = 0; order < static_cast<int>(kind); ++order) {
-      differentiate(values, degrees, derivatives);
-      std::swap(values, derivatives);
-    }
+/// Functions of one kind at any colatitude. The square roots of the recurrences are taken once.
+class Legendre {
+ public:
+  Legendre(LegendreKind kind, int degrees)
+      : kind_(kind), degrees_(degrees), a_(degrees), b_(degrees), up_(degrees), values_(degrees), scratch_(degrees) {
     for (int n = 0; n < degrees; ++n)
-      for (int m = 0; m <= n; ++m) store(j, n, m, values(n, m));
+      for (int m = 0; m <= n; ++m) {
+        const long double nn = static_cast<long double>(n) * n;
+        const long double kk = static_cast<long double>(n - 1) * (n - 1);
+        const long double mm = static_cast<long double>(m) * m;
+        if (m < n) a_(n, m) = std::sqrt((4 * nn - 1) / (nn - mm));
+        if (m < n - 1) b_(n, m) = std::sqrt((kk - mm) / (4 * kk - 1));
+        up_(n, m) = std::sqrt(static_cast<long double>(n - m) * (n + m + 1)) / 2;
+      }
   }
+
+  const Triangle& at(long double theta) {
+    fill(std::cos(theta), std::sin(theta));
+    for (int order = 0; order < static_cast<int>(kind_); ++order) differentiate();
+    return values_;
+  }
+
+ private:
+  void fill(long double x, long double s) {
+    long double diagonal = std::sqrt(1 / (4 * std::numbers::pi_v<long double>));
+    for (int n = 0; n < degrees_; ++n) {
+      if (n > 0) diagonal *= s * std::sqrt((2 * n + 1) / (2.0L * n));
+      for (int m = 0; m < n; ++m)
+        values_(n, m) = a_(n, m) * (x * values_(n - 1, m) - (m < n - 1 ? b_(n, m) * values_(n - 2, m) : 0));
+      values_(n, n) = diagonal;
+    }
+  }
+
+  /// The ladder formula, which applies to derivatives as well as to values.
+  void differentiate() {
+    for (int n = 0; n < degrees_; ++n)
+      for (int m = 0; m <= n; ++m) {
+        const long double down = n == 0 ? 0 : m == 0 ? up_(n, 0) : up_(n, m - 1);
+        scratch_(n, m) = (n == 0 ? 0 : down * values_.extended(n, m - 1)) - up_(n, m) * values_.extended(n, m + 1);
+      }
+    std::swap(values_, scratch_);
+  }
+
+  LegendreKind kind_;
+  int degrees_;
+  Triangle a_, b_, up_;
+  Triangle values_, scratch_;
+};
+
+double flushed(long double value) {
+  constexpr long double denormal_factor = 1e-150L;
+  return std::abs(value) < denormal_factor ? 0.0 : static_cast<double>(value);
+}
+
+/// For each order the first latitude, a multiple of four, where some function is not negligible.
+std::vector<int> find_first_latitudes(Legendre& legendre, const GaussLegendre& rule, int degrees, int half) {
+  constexpr long double negligible = 1e-22L;
+  std::vector<int> first(degrees, half);
+  for (int j = 0; j < half; ++j) {
+    const Triangle& p = legendre.at(rule.colatitude[j]);
+    for (int n = 0; n < degrees; ++n)
+      for (int m = 0; m <= n; ++m)
+        if (std::abs(p(n, m)) >= negligible) first[m] = std::min(first[m], j);
+  }
+  for (int& j : first) j = j / 4 * 4;
+  return first;
 }
 
 }  // namespace
 
-LegendreTable synthesis_table(LegendreKind kind, int degrees, int latitudes) {
-  LegendreTable table;
-  for (int m = 0; m < degrees; ++m) {
-    auto& parities = table.order.emplace_back();
-    for (int parity : {0, 1}) parities[parity] = PanelMatrix((latitudes + 1) / 2, degree_count(degrees, m, parity));
+LegendreTable::LegendreTable(LegendreKind kind, LegendreSum sum, int degrees, int latitudes) : matrices_(degrees) {
+  const GaussLegendre rule = gauss_legendre(latitudes);
+  const int half = (latitudes + 1) / 2;
+  Legendre legendre(kind, degrees);
+  first_latitudes_ = find_first_latitudes(legendre, rule, degrees, half);
+  const bool to_latitudes = sum == LegendreSum::over_degrees;
+  std::size_t size = 0;
+  for (int m = 0; m < degrees; ++m)
+    for (int parity : {0, 1}) {
+      const int count = degree_count(degrees, m, parity);
+      const int first = first_latitudes_[m];
+      matrices_[m][parity] = to_latitudes ? PanelMatrix(first, half, count) : PanelMatrix(0, count, half - first);
+      size += matrices_[m][parity].size();
+    }
+  data_ = allocate_aligned<double>(size);
+  double* next = data_.get();
+  for (auto& parities : matrices_)
+    for (PanelMatrix& matrix : parities) {
+      matrix.place(next);
+      next += matrix.size();
+    }
+  for (int j = 0; j < half; ++j) {
+    const Triangle& p = legendre.at(rule.colatitude[j]);
+    for (int n = 0; n < degrees; ++n)
+      for (int m = 0; m <= n; ++m) {
+        if (j < first_latitudes_[m]) continue;
+        PanelMatrix& matrix = matrices_[m][(n - m) % 2];
+        const int row = (n - m) / 2;
+        (to_latitudes ? matrix(j, row) : matrix(row, j - first_latitudes_[m])) = flushed(p(n, m));
+      }
   }
-  for_each_entry(kind, degrees, latitudes, gauss_legendre(latitudes), [&](int j, int n, int m, long double value) {
-    table.order[m][(n - m) % 2](j, (n - m) / 2) = flushed(value);
-  });
-  return table;
 }
 
-LegendreTable analysis_table(int degrees, int latitudes) {
-  LegendreTable table;
-  for (int m = 0; m < degrees; ++m) {
-    auto& parities = table.order.emplace_back();
-    for (int parity : {0, 1}) parities[parity] = PanelMatrix(degree_count(degrees, m, parity), (latitudes + 1) / 2);
-  }
-  const GaussLegendre rule = gauss_legendre(latitudes);
-  const long double spacing = std::numbers::pi_v<long double> / latitudes;
-  for_each_entry(LegendreKind::value, degrees, latitudes, rule, [&](int j, int n, int m, long double value) {
-    const long double fold = 2 * j + 1 == latitudes ? 0.5L : 1.0L;
-    table.order[m][(n - m) % 2]((n - m) / 2, j) = flushed(fold * rule.weight[j] * spacing * value);
-  });
+std::shared_ptr<const LegendreTable> shared_legendre_table(LegendreKind kind, LegendreSum sum, int degrees,
+                                                           int latitudes) {
+  using Key = std::tuple<LegendreKind, LegendreSum, int, int>;
+  static std::mutex mutex;
+  static std::map<Key, std::weak_ptr<const LegendreTable>> tables;
+  const std::lock_guard lock(mutex);
+  std::erase_if(tables, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<const LegendreTable>& entry = tables[{kind, sum, degrees, latitudes}];
+  std::shared_ptr<const LegendreTable> table = entry.lock();
+  if (!table) entry = table = std::make_shared<const LegendreTable>(kind, sum, degrees, latitudes);
   return table;
 }
 

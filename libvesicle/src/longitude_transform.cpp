@@ -1,6 +1,6 @@
 #include "longitude_transform.h"
 
-#include <new>
+#include <mutex>
 #include <stdexcept>
 
 #include <fftw3.h>
@@ -8,79 +8,82 @@
 namespace vesiflow::vesicle {
 namespace {
 
+/// FFTW's planner, unlike its transforms, is not to be used by two threads at once.
+std::mutex planner_mutex;
+
 fftw_complex* as_fftw(std::complex<double>* data) {
   return reinterpret_cast<fftw_complex*>(data);
 }
 
-/// Rows start on cache lines, and never a power of two apart, which would map a column of modes to few cache
-/// sets.
-std::ptrdiff_t padded_row(int longitudes) {
-  return (std::ptrdiff_t{longitudes} + 3) / 4 * 4 + 4;
-}
-
 }  // namespace
 
-void LongitudeTransform::Free::operator()(Complex* data) const {
-  fftw_free(data);
-}
-
-LongitudeTransform::Buffer LongitudeTransform::allocate(std::ptrdiff_t size) {
-  // FFTW's own allocation has the alignment that its vector code and the reuse of plans need.
-  auto* data = static_cast<Complex*>(fftw_malloc(sizeof(Complex) * size));
-  if (!data) throw std::bad_alloc();
-  return Buffer(data);
-}
-
-LongitudeTransform::LongitudeTransform(int latitudes, int longitudes)
-    : latitudes_(latitudes),
-      longitudes_(longitudes),
-      mode_stride_(padded_row(longitudes)),
-      rings_(allocate(std::ptrdiff_t(pairs()) * longitudes)) {
+LongitudeTransform::LongitudeTransform(int latitudes, int longitudes) : latitudes_(latitudes), longitudes_(longitudes) {
   reserve(1);
-  // FFTW_ESTIMATE: measured plans differ from process to process, and a restarted run would then not repeat
-  // the uninterrupted one bit for bit.
-  const auto plan = [&](Complex* in, int in_stride, Complex* out, int out_stride, int sign) {
-    const int n[] = {longitudes_};
-    fftw_plan result = fftw_plan_many_dft(1, n, pairs(), as_fftw(in), nullptr, 1, in_stride, as_fftw(out), nullptr, 1,
-                                          out_stride, sign, FFTW_ESTIMATE);
-    if (!result) throw std::runtime_error("FFTW could not plan the longitude transforms");
-    return result;
-  };
-  const int stride = static_cast<int>(mode_stride_);
-  forward_ = plan(rings_.get(), longitudes_, modes_.get(), stride, FFTW_FORWARD);
-  backward_ = plan(modes_.get(), stride, rings_.get(), longitudes_, FFTW_BACKWARD);
+  const std::lock_guard lock(planner_mutex);
+  if (blocks() > 1) full_ = make_plans(block_rings);
+  last_ = make_plans(rings_of(blocks() - 1));
 }
 
 LongitudeTransform::~LongitudeTransform() {
-  fftw_destroy_plan(static_cast<fftw_plan>(forward_));
-  fftw_destroy_plan(static_cast<fftw_plan>(backward_));
+  const std::lock_guard lock(planner_mutex);
+  for (const Plans& plans : {full_, last_})
+    for (void* plan : {plans.forward, plans.backward})
+      if (plan) fftw_destroy_plan(static_cast<fftw_plan>(plan));
 }
 
-void LongitudeTransform::reserve(int fields) {
-  if (fields <= fields_) return;
-  modes_ = allocate(std::ptrdiff_t(fields) * pairs() * mode_stride_);
-  fields_ = fields;
+LongitudeTransform::Plans LongitudeTransform::make_plans(int rings) {
+  // FFTW_ESTIMATE: measured plans differ from process to process, and a restarted run would then not repeat
+  // the uninterrupted one bit for bit.
+  const Buffer scratch = allocate_rings();
+  fftw_complex* const modes = as_fftw(modes_.get());
+  fftw_complex* const values = as_fftw(scratch.get());
+  const int n[] = {longitudes_};
+  const Plans plans{fftw_plan_many_dft(1, n, rings, values, nullptr, 1, longitudes_, modes, nullptr, block_rings, 1,
+                                       FFTW_FORWARD, FFTW_ESTIMATE),
+                    fftw_plan_many_dft(1, n, rings, modes, nullptr, block_rings, 1, values, nullptr, 1, longitudes_,
+                                       FFTW_BACKWARD, FFTW_ESTIMATE)};
+  if (!plans.forward || !plans.backward) throw std::runtime_error("FFTW could not plan the longitude transforms");
+  return plans;
 }
 
-void LongitudeTransform::forward(const double* values, int field) {
-  for (int j = 0; j < pairs(); ++j) {
-    const double* north = values + std::ptrdiff_t(j) * longitudes_;
-    const double* south = values + std::ptrdiff_t(latitudes_ - 1 - j) * longitudes_;
-    Complex* ring = rings_.get() + std::ptrdiff_t(j) * longitudes_;
-    for (int i = 0; i < longitudes_; ++i) ring[i] = {north[i], south[i]};
-  }
-  fftw_execute_dft(static_cast<fftw_plan>(forward_), as_fftw(rings_.get()), as_fftw(modes(field)));
+void LongitudeTransform::reserve(int columns) {
+  if (columns <= columns_) return;
+  modes_ = allocate_aligned<Complex>(std::size_t(columns) * blocks() * block_stride());
+  columns_ = columns;
 }
 
-void LongitudeTransform::backward(int field, double* values) {
-  fftw_execute_dft(static_cast<fftw_plan>(backward_), as_fftw(modes(field)), as_fftw(rings_.get()));
-  for (int j = 0; j < pairs(); ++j) {
-    double* north = values + std::ptrdiff_t(j) * longitudes_;
-    double* south = values + std::ptrdiff_t(latitudes_ - 1 - j) * longitudes_;
-    const Complex* ring = rings_.get() + std::ptrdiff_t(j) * longitudes_;
+void LongitudeTransform::clear_mode(int column, int k) {
+  for (int block = 0; block < blocks(); ++block)
+    for (const int mode_number : {k, (longitudes_ - k) % longitudes_})
+      std::fill_n(mode(column, block, mode_number), block_rings, Complex{});
+}
+
+void LongitudeTransform::forward(const double* values, int column, int block, Complex* rings) {
+  for (int r = 0; r < rings_of(block); ++r) {
+    const std::ptrdiff_t j = block * block_rings + r;
+    const double* north = values + j * longitudes_;
+    const double* south = values + (latitudes_ - 1 - j) * longitudes_;
+    double* ring = reinterpret_cast<double*>(rings + std::ptrdiff_t(r) * longitudes_);
+#pragma GCC ivdep
     for (int i = 0; i < longitudes_; ++i) {
-      north[i] = ring[i].real();
-      south[i] = ring[i].imag();
+      ring[2 * i] = north[i];
+      ring[2 * i + 1] = south[i];
+    }
+  }
+  fftw_execute_dft(static_cast<fftw_plan>(plans_of(block).forward), as_fftw(rings), as_fftw(mode(column, block, 0)));
+}
+
+void LongitudeTransform::backward(int column, int block, double* values, Complex* rings) {
+  fftw_execute_dft(static_cast<fftw_plan>(plans_of(block).backward), as_fftw(mode(column, block, 0)), as_fftw(rings));
+  for (int r = 0; r < rings_of(block); ++r) {
+    const std::ptrdiff_t j = block * block_rings + r;
+    double* north = values + j * longitudes_;
+    double* south = values + (latitudes_ - 1 - j) * longitudes_;
+    const double* ring = reinterpret_cast<const double*>(rings + std::ptrdiff_t(r) * longitudes_);
+#pragma GCC ivdep
+    for (int i = 0; i < longitudes_; ++i) {
+      north[i] = ring[2 * i];
+      south[i] = ring[2 * i + 1];
     }
   }
 }

@@ -99,8 +99,11 @@ void Membrane::advance(const VectorField& new_positions, const VectorField& velo
 }
 
 double Membrane::energy() const {
+  return elastic_energy() + (bending_ ? bending_->energy(surface_) : 0);
+}
+
+double Membrane::elastic_energy() const {
   double sum = 0;
-  if (bending_) sum += bending_->energy(surface_);
   if (tension_force_) sum += tension_force_->energy(surface_, target_areas_);
   if (parameters_.volume == VolumeControl::penalty)
     sum += volume_penalty_energy(surface_, parameters_.volume_stiffness, initial_volume_);

@@ -2,182 +2,144 @@
 
 #include <algorithm>
 #include <array>
-#include <complex>
+#include <span>
 #include <stdexcept>
-#include <vector>
 
 #include "check.h"
-#include "legendre_tables.h"
-#include "longitude_transform.h"
+#include "harmonic_stages.h"
 
 namespace vesiflow::vesicle {
 namespace {
 
-using Complex = std::complex<double>;
+/// Fields by kind, as the stages share the sums of neighbours of one kind.
+template <class Value>
+class FieldList {
+ public:
+  void add(Derivative derivative, Value* values, std::ptrdiff_t stride) {
+    NodalFields<Value>& slot = slots_[slot_of(derivative)];
+    if (slot.values) throw std::invalid_argument("a derivative is asked for twice");
+    slot.values = values;
+    slot.stride = stride;
+  }
 
-const double* reals(const Complex* data) {
-  return reinterpret_cast<const double*>(data);
-}
+  /// Those that were added.
+  std::span<const NodalFields<Value>> fields() {
+    return {slots_.begin(), std::remove_if(slots_.begin(), slots_.end(), [](const auto& f) { return !f.values; })};
+  }
 
-/// (i m)^derivative.
-Complex longitude_derivative(int m, int derivative) {
-  if (derivative == 1) return {0, double(m)};
-  return derivative == 0 ? 1 : -double(m) * m;
-}
+ private:
+  static std::size_t slot_of(Derivative derivative) {
+    switch (derivative) {
+      case Derivative::value: return 0;
+      case Derivative::phi: return 1;
+      case Derivative::phi_phi: return 2;
+      case Derivative::theta: return 3;
+      case Derivative::theta_phi: return 4;
+      case Derivative::theta_theta: break;
+    }
+    return 5;
+  }
 
-/// Without the recovery of infinities that std::complex's product makes.
-Complex product(Complex a, Complex b) {
-  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-/// Mode m of f + i g for real f and g with modes a = F_m and b = G_m; and its mode -m.
-Complex paired(Complex a, Complex b) {
-  return {a.real() - b.imag(), a.imag() + b.real()};
-}
-Complex paired_negative(Complex a, Complex b) {
-  return {a.real() + b.imag(), b.real() - a.imag()};
-}
+  std::array<NodalFields<Value>, 6> slots_{{{LegendreKind::value, 0, nullptr, 0},
+                                            {LegendreKind::value, 1, nullptr, 0},
+                                            {LegendreKind::value, 2, nullptr, 0},
+                                            {LegendreKind::first, 0, nullptr, 0},
+                                            {LegendreKind::first, 1, nullptr, 0},
+                                            {LegendreKind::second, 0, nullptr, 0}}};
+};
 
 }  // namespace
 
 class SphericalHarmonics::Implementation {
  public:
   Implementation(int degrees, const SphereGrid& grid, int max_fields)
-      : degrees_(degrees), grid_(grid), longitude_transform_(grid.latitudes(), grid.longitudes()) {
-    check_argument(degrees >= 1, "degrees", degrees, ">= 1");
+      : degrees_(checked_degrees(degrees)),
+        grid_(grid),
+        stages_(degrees, grid),
+        analysis_weight_(grid.weight() * grid.longitude_spacing()),
+        no_weight_(ScalarField::Ones(grid.latitudes())) {
     check_argument(max_fields >= 1, "max_fields", max_fields, ">= 1");
-    reserve(max_fields);
+    stages_.reserve(max_fields, 1);
   }
 
   int degrees() const { return degrees_; }
   const SphereGrid& grid() const { return grid_; }
 
-  void analysis(const Input& values, Coefficients& coefficients) {
-    if (degrees_ > grid_.latitudes()) throw std::logic_error("analysis needs at least as many latitudes as degrees");
-    check_markers(values, "field", grid_.size());
-    const int fields = static_cast<int>(values.cols());
-    reserve(fields);
-    if (analysis_.empty()) analysis_ = analysis_table(degrees_, grid_.latitudes());
-    coefficients.resize(degrees_, fields);
-    for (int field = 0; field < fields; ++field) longitude_transform_.forward(values.col(field).data(), field);
-    for (int m = 0; m < degrees_; ++m) {
-      fold_hemispheres(m, fields);
-      for (int parity : {0, 1}) integrate_latitudes(m, parity, coefficients);
-    }
+  void prepare(const Uses& uses, int fields) {
+    check_argument(fields >= 1, "fields", fields, ">= 1");
+    const bool gradient = uses.gradient || uses.derivatives;
+    stages_.reserve(fields, uses.derivatives ? 3 : 1);
+    const auto require = [&](LegendreSum sum) {
+      stages_.require(LegendreKind::value, sum);
+      if (gradient) stages_.require(LegendreKind::first, sum);
+      if (uses.derivatives) stages_.require(LegendreKind::second, sum);
+    };
+    if (uses.synthesis || gradient || (uses.analysis && uses.adjoints)) require(LegendreSum::over_degrees);
+    if (uses.analysis) stages_.require(LegendreKind::value, LegendreSum::over_latitudes);
+    if (uses.adjoints && (uses.synthesis || gradient)) require(LegendreSum::over_latitudes);
   }
 
-  /// Values of d^derivative/dphi^derivative of the expansion with the Legendre functions of that kind.
-  void evaluate(const Coefficients& coefficients, LegendreKind kind, int derivative, Output& values) {
-    check_markers(values, "field", grid_.size());
-    const int fields = coefficients.fields();
-    check_argument(values.cols() == fields, "columns of the output", values.cols(), "the number of fields");
+  void check_analysis() const {
+    if (degrees_ > grid_.latitudes()) throw std::logic_error("analysis needs at least as many latitudes as degrees");
+  }
+
+  void analysis(const Input& values, Coefficients& coefficients) {
+    check_analysis();
+    project({{Derivative::value, values}}, analysis_weight_, coefficients);
+  }
+
+  void analysis_adjoint(const Coefficients& coefficients, Output& values) {
+    check_analysis();
+    evaluate(coefficients, std::array{Request{Derivative::value, values}});
+    for (int j = 0; j < grid_.latitudes(); ++j)
+      values.middleRows(grid_.index(0, j), grid_.longitudes()) *= analysis_weight_[j];
+  }
+
+  void evaluate(const Coefficients& coefficients, std::span<const Request> requests) {
     check_argument(coefficients.degrees() >= degrees_, "degrees of the coefficients", coefficients.degrees(),
                    "at least those of the transform");
-    reserve(fields);
-    LegendreTable& table = synthesis_[static_cast<int>(kind)];
-    if (table.empty()) table = synthesis_table(kind, degrees_, grid_.latitudes());
-    clear_modes(fields);
-    const double south_sign = kind == LegendreKind::first ? -1 : 1;
-    for (int m = 0; m < degrees_; ++m) {
-      for (int parity : {0, 1})
-        table.order[m][parity].multiply(reals(coefficients.block(m, parity)), 2 * fields, 2 * fields,
-                                        panels_[parity].data(), padded_rows(longitude_transform_.pairs()));
-      unfold_hemispheres(m, derivative, south_sign, fields);
+    FieldList<double> results;
+    for (const Request& request : requests) {
+      Output values = request.values;
+      check_markers(values, "field", grid_.size());
+      check_argument(values.cols() == coefficients.fields(), "columns of the output", values.cols(),
+                     "the number of fields");
+      results.add(request.derivative, values.data(), values.outerStride());
     }
-    for (int field = 0; field < fields; ++field) longitude_transform_.backward(field, values.col(field).data());
+    stages_.evaluate(coefficients, results.fields());
+  }
+
+  struct Given {
+    Derivative derivative;
+    const Input& values;
+  };
+
+  void project_adjoint(std::initializer_list<Given> given, Coefficients& coefficients) {
+    project(given, no_weight_, coefficients);
   }
 
  private:
-  void reserve(int fields) {
-    if (fields <= reserved_fields_) return;
-    reserved_fields_ = fields;
-    longitude_transform_.reserve(fields);
-    const int half = longitude_transform_.pairs();
-    for (int parity : {0, 1}) {
-      folded_[parity].resize(std::size_t(half) * fields);
-      panels_[parity].resize(std::size_t(2) * fields * std::max(padded_rows(half), padded_rows(degrees_ / 2 + 1)));
-    }
+  static int checked_degrees(int degrees) {
+    check_argument(degrees >= 1, "degrees", degrees, ">= 1");
+    return degrees;
   }
 
-  /// folded_[parity](j, field) = mode m of the ring j plus (even) or minus (odd) that of its southern mirror
-  /// image.
-  void fold_hemispheres(int m, int fields) {
-    const std::ptrdiff_t stride = longitude_transform_.mode_stride();
-    const int negative = m == 0 ? 0 : grid_.longitudes() - m;
-    for (int field = 0; field < fields; ++field) {
-      const Complex* modes = longitude_transform_.modes(field);
-      for (int j = 0; j < longitude_transform_.pairs(); ++j, modes += stride) {
-        const Complex a = 0.5 * modes[m];
-        const Complex b = 0.5 * std::conj(modes[negative]);
-        const Complex north = a + b;
-        const Complex south{a.imag() - b.imag(), b.real() - a.real()};
-        folded_[0][std::size_t(j) * fields + field] = north + south;
-        folded_[1][std::size_t(j) * fields + field] = north - south;
-      }
+  void project(std::initializer_list<Given> given, const ScalarField& weight, Coefficients& coefficients) {
+    FieldList<const double> fields;
+    const Eigen::Index columns = given.begin()->values.cols();
+    for (const Given& g : given) {
+      check_markers(g.values, "field", grid_.size());
+      check_argument(g.values.cols() == columns, "columns of a field", g.values.cols(), "equal for all");
+      fields.add(g.derivative, g.values.data(), g.values.outerStride());
     }
-  }
-
-  void integrate_latitudes(int m, int parity, Coefficients& coefficients) {
-    const int fields = coefficients.fields();
-    const int rows = degree_count(degrees_, m, parity);
-    const int stride = padded_rows(rows);
-    double* sums = panels_[parity].data();
-    analysis_.order[m][parity].multiply(reals(folded_[parity].data()), 2 * fields, 2 * fields, sums, stride);
-    Complex* block = coefficients.block(m, parity);
-    for (int field = 0; field < fields; ++field) {
-      const double* real = sums + std::ptrdiff_t(2 * field) * stride;
-      const double* imaginary = real + stride;
-      for (int row = 0; row < rows; ++row) block[row * fields + field] = {real[row], imaginary[row]};
-    }
-  }
-
-  /// Orders reach the longitudes' Nyquist mode, so that several orders may share a mode.
-  bool folds_orders() const { return degrees_ > grid_.latitudes(); }
-
-  /// Modes that unfold_hemispheres does not set, or adds to.
-  void clear_modes(int fields) {
-    const int first = folds_orders() ? 0 : degrees_;
-    const int last = folds_orders() ? grid_.longitudes() : grid_.longitudes() - degrees_ + 1;
-    for (int field = 0; field < fields; ++field) {
-      Complex* modes = longitude_transform_.modes(field);
-      for (int j = 0; j < longitude_transform_.pairs(); ++j, modes += longitude_transform_.mode_stride())
-        std::fill(modes + first, modes + last, Complex{});
-    }
-  }
-
-  /// Puts orders m and -m of the northern and southern rings into the modes that they equal at the
-  /// longitudes.
-  void unfold_hemispheres(int m, int derivative, double south_sign, int fields) {
-    const int positive = m % grid_.longitudes();
-    const int negative = positive == 0 ? 0 : grid_.longitudes() - positive;
-    const bool add = folds_orders();
-    const Complex factor = longitude_derivative(m, derivative);
-    const int half = longitude_transform_.pairs();
-    const int stride = padded_rows(half);
-    for (int field = 0; field < fields; ++field) {
-      const double* even = panels_[0].data() + std::ptrdiff_t(2 * field) * stride;
-      const double* odd = panels_[1].data() + std::ptrdiff_t(2 * field) * stride;
-      Complex* modes = longitude_transform_.modes(field);
-      for (int j = 0; j < half; ++j, modes += longitude_transform_.mode_stride()) {
-        const Complex e{even[j], even[j + stride]};
-        const Complex o{odd[j], odd[j + stride]};
-        const Complex north = product(factor, e + o);
-        const Complex south = product(south_sign * factor, e - o);
-        modes[positive] = (add ? modes[positive] : Complex{}) + paired(north, south);
-        if (m > 0) modes[negative] = (add ? modes[negative] : Complex{}) + paired_negative(north, south);
-      }
-    }
+    coefficients.resize(degrees_, static_cast<int>(columns));
+    stages_.project(fields.fields(), weight, coefficients);
   }
 
   int degrees_;
   SphereGrid grid_;
-  LongitudeTransform longitude_transform_;
-  LegendreTable analysis_;
-  std::array<LegendreTable, 3> synthesis_;
-
-  int reserved_fields_ = 0;
-  std::array<std::vector<Complex>, 2> folded_;  ///< (northern latitude, field) for each parity
-  std::array<std::vector<double>, 2> panels_;   ///< (2 fields, padded rows) for each parity
+  HarmonicStages stages_;
+  ScalarField analysis_weight_, no_weight_;
 };
 
 SphericalHarmonics::SphericalHarmonics(int degrees, const SphereGrid& grid, int max_fields)
@@ -193,24 +155,60 @@ const SphereGrid& SphericalHarmonics::grid() const {
   return implementation_->grid();
 }
 
+void SphericalHarmonics::prepare(const Uses& uses, int fields) {
+  implementation_->prepare(uses, fields);
+}
+
 void SphericalHarmonics::analysis(const Input& values, Coefficients& coefficients) const {
   implementation_->analysis(values, coefficients);
 }
 
 void SphericalHarmonics::synthesis(const Coefficients& coefficients, Output values) const {
-  implementation_->evaluate(coefficients, LegendreKind::value, 0, values);
+  evaluate(coefficients, {{Derivative::value, values}});
 }
 
 void SphericalHarmonics::gradient(const Coefficients& coefficients, Output theta, Output phi) const {
-  implementation_->evaluate(coefficients, LegendreKind::first, 0, theta);
-  implementation_->evaluate(coefficients, LegendreKind::value, 1, phi);
+  evaluate(coefficients, {{Derivative::theta, theta}, {Derivative::phi, phi}});
 }
 
 void SphericalHarmonics::second_derivatives(const Coefficients& coefficients, Output theta_theta, Output theta_phi,
                                             Output phi_phi) const {
-  implementation_->evaluate(coefficients, LegendreKind::second, 0, theta_theta);
-  implementation_->evaluate(coefficients, LegendreKind::first, 1, theta_phi);
-  implementation_->evaluate(coefficients, LegendreKind::value, 2, phi_phi);
+  evaluate(coefficients, {{Derivative::theta_theta, theta_theta},
+                          {Derivative::theta_phi, theta_phi},
+                          {Derivative::phi_phi, phi_phi}});
+}
+
+void SphericalHarmonics::derivatives(const Coefficients& coefficients, Output theta, Output phi, Output theta_theta,
+                                     Output theta_phi, Output phi_phi) const {
+  evaluate(coefficients, {{Derivative::theta, theta},
+                          {Derivative::phi, phi},
+                          {Derivative::theta_theta, theta_theta},
+                          {Derivative::theta_phi, theta_phi},
+                          {Derivative::phi_phi, phi_phi}});
+}
+
+void SphericalHarmonics::evaluate(const Coefficients& coefficients, std::initializer_list<Request> requests) const {
+  implementation_->evaluate(coefficients, requests);
+}
+
+void SphericalHarmonics::analysis_adjoint(const Coefficients& coefficients, Output values) const {
+  implementation_->analysis_adjoint(coefficients, values);
+}
+
+void SphericalHarmonics::synthesis_adjoint(const Input& values, Coefficients& coefficients) const {
+  implementation_->project_adjoint({{Derivative::value, values}}, coefficients);
+}
+
+void SphericalHarmonics::gradient_adjoint(const Input& theta, const Input& phi, Coefficients& coefficients) const {
+  implementation_->project_adjoint({{Derivative::theta, theta}, {Derivative::phi, phi}}, coefficients);
+}
+
+void SphericalHarmonics::second_derivatives_adjoint(const Input& theta_theta, const Input& theta_phi,
+                                                    const Input& phi_phi, Coefficients& coefficients) const {
+  implementation_->project_adjoint({{Derivative::theta_theta, theta_theta},
+                                    {Derivative::theta_phi, theta_phi},
+                                    {Derivative::phi_phi, phi_phi}},
+                                   coefficients);
 }
 
 }  // namespace vesiflow::vesicle

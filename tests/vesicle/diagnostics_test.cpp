@@ -33,6 +33,9 @@ TEST(Diagnostics, MomentsOfAPlacedEllipsoid) {
   EXPECT_NEAR(std::abs(moments.directions.col(0).dot(rotation.col(2))), 1, 1e-13);
   const Eigen::Matrix3d exact = moments.volume / 5 * rotation * Vector3(1, 4, 16).asDiagonal() * rotation.transpose();
   EXPECT_LT((moments.second_moments - exact).norm(), 1e-10);
+  EXPECT_NEAR(deformation(moments), 0.6, 1e-12);
+  // A solid ellipsoid turning about its longest axis: V (a^2 + b^2) / 5.
+  EXPECT_NEAR(rotation.col(2).dot(moments.inertia() * rotation.col(2)), moments.volume * (1 + 4) / 5, 1e-10);
 }
 
 TEST(Diagnostics, InclinationOfARotatedProlate) {
@@ -41,6 +44,15 @@ TEST(Diagnostics, InclinationOfARotatedProlate) {
     surface.update(prolate(surface.grid(), 0.9, {.rotation = inclined(angle)}));
     EXPECT_NEAR(std::remainder(inclination_angle(volume_moments(surface)) - angle, pi), 0, 1e-12) << angle;
   }
+}
+
+/// A reduced volume of 0.95 is an excess area of 0.437.
+TEST(Diagnostics, ExcessAreaAndReducedVolumeAgree) {
+  Surface surface(latitudes);
+  surface.update(prolate(surface.grid(), 0.95, {.effective_radius = 1.7}));
+  const double delta = excess_area(surface.area(), surface.volume());
+  EXPECT_NEAR(delta, 0.437, 5e-4);
+  EXPECT_NEAR(std::pow(1 + delta / (4 * pi), -1.5), reduced_volume(surface.area(), surface.volume()), 1e-13);
 }
 
 TEST(Diagnostics, InclinationIsUndefinedWithoutALongestAxisInThePlane) {
@@ -89,6 +101,10 @@ TEST(Diagnostics, MeasuresAStretchedMembrane) {
   EXPECT_NEAR(d.max_local_area_error, 0.21, 1e-12);
   EXPECT_NEAR(d.max_label_area_error, 0.21, 1e-12);
   EXPECT_NEAR(d.bending_energy, 2 * pi, 1e-12);
+  EXPECT_NEAR(d.excess_area, 0, 1e-12);
+  EXPECT_NEAR(d.deformation, 0, 1e-12);
+  EXPECT_NEAR(d.elastic_energy, 5 * std::pow(std::log(1.21), 2) * 4 * pi, 1e-10);
+  EXPECT_TRUE(d.resolution.sufficient());
   EXPECT_NEAR(d.tension_min, 10 / 1.21 * std::log(1.21), 1e-11);
   EXPECT_NEAR(d.tension_max, d.tension_min, 1e-11);
   EXPECT_NEAR(d.surface_divergence_max, 2 / 1.1, 1e-11);

@@ -75,8 +75,8 @@ TEST(LaplaceBeltrami, PaperFormReproducesTable1) {
   EXPECT_LT(fine, 0.230 * 2);
 }
 
-/// Truncation to the N degrees of the mesh leaves the error of that projection, whatever the form: METHOD's figure for N = 64
-/// is 9.5e-3 and an exact Lap H has it too.
+/// Truncation to the N degrees of the mesh leaves the error of that projection, whatever the form. An exact Lap H has
+/// it too.
 TEST(LaplaceBeltrami, TruncationLeavesTheProjectionError) {
   const SphereGrid fine(160), coarse(48);
   VectorField x = ellipsoid(fine, semi_axes, {.effective_radius = 2});

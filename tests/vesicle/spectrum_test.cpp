@@ -57,7 +57,7 @@ TEST(Resolution, PredictsWhatAFinerMeshFinds) {
   for (const Vector3& axes : {Vector3(1, 2, 4), Vector3(3, 3, 1)}) {
     Surface coarse(24);
     coarse.update(ellipsoid(coarse.grid(), axes));
-    const Resolution predicted = resolution(coarse);
+    const Resolution predicted = resolution(coarse, 0.01);
     ASSERT_FALSE(predicted.sufficient());
     ASSERT_GT(predicted.needed_latitudes, 24);
 
@@ -84,7 +84,7 @@ TEST(Resolution, PredictsWhatAFinerMeshFinds) {
 TEST(Resolution, WarnsInWordsAUserUnderstands) {
   Surface surface(24);
   surface.update(ellipsoid(surface.grid(), {1, 2, 4}));
-  const std::string warning = resolution_warning(resolution(surface));
+  const std::string warning = resolution_warning(resolution(surface, 0.01));
   EXPECT_NE(warning.find("the shape needs N_theta >= 40 (it has 24)"), std::string::npos) << warning;
   surface.update(prolate(surface.grid(), 0.95));
   EXPECT_EQ(resolution_warning(resolution(surface)), "");

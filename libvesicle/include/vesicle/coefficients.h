@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-#include <Eigen/Core>
+#include "vesicle/types.h"
 
 namespace vesiflow::vesicle {
 
@@ -33,12 +33,32 @@ class Coefficients {
 
   void set_zero();
 
+  /// The fields of `from` with another number of degrees: padded with zeros or truncated. What is synthesised on
+  /// another grid is the field there (p <= latitudes) or its projection. Allocates only when the storage must grow.
+  /// @throws std::invalid_argument unless degrees >= 1, and if `from` is this.
+  void resample(const Coefficients& from, int degrees);
+
   /// Sharp low-pass filter F_k: keeps the degrees n < k.
   void truncate(int k);
 
-  /// sum over degrees first <= n < last of all fields of |f_n^0|^2 + 2 sum_{m>0} |f_n^m|^2, which is the
-  /// squared L2 norm over the unit sphere of that part of the fields.
+  /// The two-thirds rule: keeps the degrees n < 2p/3, whose products of two alias only onto what it removes.
+  void truncate_to_two_thirds() { truncate((2 * degrees_ + 2) / 3); }
+
+  /// Exponential filter: degree n times exp(-strength (n / (p - 1))^order), of which `strength` = 36 takes the highest
+  /// degree p - 1 to round-off (Hou & Li, J. Comput. Phys. 226, 379 (2007)).
+  /// @throws std::invalid_argument unless strength >= 0 and order > 0.
+  void filter_exponentially(double strength, double order);
+
+  /// Inner product sum_n [ Re(conj(a_n^0) b_n^0) + 2 Re sum_{m>0} conj(a_n^m) b_n^m ], over all fields: the integral of
+  /// the product over the unit sphere.
+  /// @throws std::invalid_argument unless the shapes are equal.
+  double dot(const Coefficients& other) const;
+
+  /// dot(*this) of the degrees first <= n < last.
   double energy(int first, int last) const;
+
+  /// The same for each degree, shape (degrees); resizes `energies`.
+  void energy_per_degree(ScalarField& energies) const;
 
   /// First coefficient of order m with n - m even (parity 0) or odd (parity 1); rows of `fields` values.
   Complex* block(int m, int parity) { return data_.data() + block_offset(m, parity); }

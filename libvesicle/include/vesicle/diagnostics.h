@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "vesicle/membrane.h"
+#include "vesicle/spectrum.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
 
@@ -14,6 +15,8 @@ struct VolumeMoments {
   Vector3 centroid = Vector3::Zero();
   /// int (x - c)(x - c)^T dV.
   Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
+  /// int (|x - c|^2 I - (x - c)(x - c)^T) dV: the moment of inertia about the centroid of a body of unit density.
+  Eigen::Matrix3d inertia() const { return second_moments.trace() * Eigen::Matrix3d::Identity() - second_moments; }
   /// Semi-axes of the solid ellipsoid with these second moments scaled by the volume, longest first, and
   /// their unit directions as columns.
   Vector3 semi_axes = Vector3::Zero();
@@ -21,6 +24,13 @@ struct VolumeMoments {
 };
 
 VolumeMoments volume_moments(const Surface& surface);
+
+/// Taylor's deformation (L - S)/(L + S) of the ellipsoid with the same moments, L and S its longest and shortest semi-axis: 0 for
+/// a sphere, towards 1 for needles and discs.
+double deformation(const VolumeMoments& moments);
+
+/// A/R^2 - 4 pi with R = (3 V/4 pi)^{1/3}: the area beyond that of the sphere of the same volume, 0 for it.
+double excess_area(double area, double volume);
 
 /// Angle of the longest axis in the xz-plane against the x axis, radians in (-pi/2, pi/2]. NaN if the longest
 /// axis is not defined (the two longest agree to 1e-8, e.g. spheres and oblates) or points along y.
@@ -40,21 +50,25 @@ struct Diagnostics {
   double area = 0;
   double volume = 0;
   double reduced_volume = 0;
+  double excess_area = 0;   ///< see excess_area()
   double area_error = 0;    ///< A / A(0) - 1, signed
   double volume_error = 0;  ///< V / V(0) - 1, signed
   Vector3 centroid = Vector3::Zero();
   Eigen::Matrix3d second_moments = Eigen::Matrix3d::Zero();
   Vector3 semi_axes = Vector3::Zero();                       ///< longest first
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();  ///< columns, as semi_axes
+  double deformation = 0;                                    ///< see deformation()
   double inclination_angle = 0;                              ///< radians, see inclination_angle()
   double tank_treading_frequency = 0;                        ///< Eq. (34)
   double surface_divergence_max = 0;                         ///< max |div_Gamma| of the mesh velocity
   double max_local_area_error = 0;                           ///< max |dA / dA0 - 1| against the target areas
   double max_label_area_error = 0;  ///< max |dA / dA(0) - 1| at the same label: the column of Table 3
-  double bending_energy = 0;        ///< (1/2) int H^2 dA, without 1/Ca
+  double bending_energy = 0;        ///< (1/2) int (H - H0)^2 dA, without 1/Ca
+  double elastic_energy = 0;        ///< of the tension and the penalties that are switched on
   double tension_min = 0;
   double tension_max = 0;
   double spectrum_tail = 0;  ///< see spectrum_tail()
+  Resolution resolution;     ///< how well the mesh resolves the bending force
 };
 
 /// Measures a membrane at its last geometry. marker_velocity: the interpolated U, for Eq. (34);

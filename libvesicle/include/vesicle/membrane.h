@@ -96,6 +96,8 @@ class Membrane {
 
   /// bending_energy / Ca + E_sigma + penalty energies of the parts that are switched on, at the last geometry.
   double energy() const;
+  /// The same without bending.
+  double elastic_energy() const;
 
   MembraneState state() const;
   /// Replaces the state and updates the geometry.

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <span>
+
 #include <Eigen/Core>
 
+#include "vesicle/coefficients.h"
 #include "vesicle/sphere_grid.h"
 #include "vesicle/types.h"
 
@@ -15,10 +18,10 @@ struct Placement {
   Vector3 centre = Vector3::Zero();
 };
 
-/// Initial shapes: marker positions of shape (grid.size(), 3) with
-///   X = (a sin(theta) cos(phi), b sin(theta) sin(phi), c cos(theta))
-/// before rotation, so the axis of a spheroid is the polar axis z of the mesh.
-/// All throw std::invalid_argument, naming the value and the allowed range, for bad arguments.
+/// Initial shapes: marker positions of shape (grid.size(), 3). Axes of symmetry are the polar axis z of the mesh before
+/// rotation. All throw std::invalid_argument, naming the value and the allowed range, for bad arguments.
+///
+/// The ellipsoids are X = (a sin(theta) cos(phi), b sin(theta) sin(phi), c cos(theta)).
 
 VectorField sphere(const SphereGrid& grid, const Placement& placement = {});
 
@@ -31,6 +34,33 @@ VectorField spheroid(const SphereGrid& grid, double aspect_ratio, const Placemen
 /// Spheroids of reduced volume 6 sqrt(pi) V / A^{3/2} in (0, 1].
 VectorField prolate(const SphereGrid& grid, double reduced_volume, const Placement& placement = {});
 VectorField oblate(const SphereGrid& grid, double reduced_volume, const Placement& placement = {});
+
+/// Red-cell discocyte of E. Evans and Y. C. Fung, Microvasc. Res. 4 (1972) 335, doi:10.1016/0026-2862(72)90069-6: at the
+/// distance rho = sin(theta) from the axis, in units of the radius of the disc,
+///   z = cos(theta)/2 (c0 + c1 rho^2 + c2 rho^4),  c0 = 0.207161, c1 = 2.002558, c2 = -1.122762.
+/// Its reduced volume is 0.6444.
+VectorField biconcave_disc(const SphereGrid& grid, const Placement& placement = {});
+
+/// A term amplitude * Re Y_n^m for m >= 0, amplitude * Im Y_n^{|m|} for m < 0, with the fully normalised Y_n^m of
+/// SphericalHarmonics: the integral of |Y_n^m|^2 over all directions is 1, so that of (Re Y_n^m)^2 is 1/2 for m > 0.
+struct Harmonic {
+  int degree = 0;  ///< n in [0, latitudes - 2]: the mesh resolves r(d) d, which has one degree more
+  int order = 0;   ///< m in [-n, n]
+  double amplitude = 0;
+};
+
+/// X = r(d) d over the directions d of the grid, r = 1 + sum of the terms, then scaled to the effective radius: a common
+/// factor changes nothing. The centre of the directions, not the centroid, lies at the centre.
+/// @throws std::invalid_argument also when r is not > 0 (looked at in about eight points per wavelength
+/// of the highest degree, and on the grid).
+VectorField perturbed_sphere(const SphereGrid& grid, std::span<const Harmonic> terms, const Placement& placement = {});
+
+/// The surface with the given coefficients of three fields, of any number of degrees, at the nodes of the grid. It is
+/// scaled to the effective radius, turned about the centroid of its volume, and the centroid is put at the centre.
+/// @throws std::invalid_argument also unless the coefficients are finite with three fields, std::domain_error unless the
+/// enclosed volume is > 0: it is negative where X_theta x X_phi points inward.
+VectorField shape_from_coefficients(const SphereGrid& grid, const Coefficients& coefficients,
+                                    const Placement& placement = {});
 
 /// Closed form for the spheroid of that aspect ratio.
 double spheroid_reduced_volume(double aspect_ratio);

@@ -10,7 +10,7 @@ namespace vesiflow::vesicle {
 class Surface;
 
 /// Share of Lap H that may be unresolved before a warning is due.
-inline constexpr double default_resolution_tolerance = 0.01;
+inline constexpr double default_resolution_tolerance = 0.05;
 
 /// How the energy of fields on the sphere is spread over the degrees of their expansion, and how fast it falls.
 class Spectrum {

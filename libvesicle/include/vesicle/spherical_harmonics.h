@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 
 #include "vesicle/coefficients.h"
@@ -7,6 +8,9 @@
 #include "vesicle/types.h"
 
 namespace vesiflow::vesicle {
+
+/// A field at the nodes of a grid or one of its partial derivatives with respect to theta and phi.
+enum class Derivative { value, theta, phi, theta_theta, theta_phi, phi_phi };
 
 /// Scalar spherical-harmonic transforms of several real fields at once, Eqs. (23)-(30) of the paper in the
 /// fully normalised complex convention
@@ -20,17 +24,23 @@ namespace vesiflow::vesicle {
 /// (once or twice) and so never divide by sin(theta). Tables are built in extended precision.
 ///
 /// The number of degrees p is free of the grid:
-/// - p <= latitudes: analysis is exact for fields of degree < p, and is the discrete adjoint of synthesis;
+/// - p <= latitudes: analysis is exact for fields of degree < p, and is the inverse of synthesis;
 /// - p > latitudes: synthesis and derivatives are still the exact values of the expansion at the nodes (orders beyond
 ///   the longitudes' Nyquist order are folded onto the Fourier mode they equal there); analysis is refused.
 /// Coefficients of more than p degrees may be given: the transform reads those with n < p, which makes it a
 /// sharp low-pass filter.
 ///
+/// Adjoints are those of the real inner products sum over nodes and fields of f g, and Coefficients::dot.
+///
 /// FFTW plans are made by estimate and not by measurement: measured plans differ from process to process and
 /// a restarted run would then not repeat the uninterrupted one bit for bit.
 ///
-/// A transform owns its tables and work space: it allocates on the first use of each function and when it
-/// first meets a larger number of fields, never again, and must not be used by two threads at once.
+/// A transform owns its work space and must not be used by two threads at once; different transforms may, and those
+/// of equal degrees and latitudes share their tables. It allocates on the first use of each function and when it
+/// first meets a larger number of fields, never again; nothing at all is allocated for what prepare() was told of.
+///
+/// Large transforms use OpenMP threads, as many as OpenMP offered when the work space was made and at most one per
+/// processor; inside a parallel region they are serial. The bits do not depend on the number of threads.
 class SphericalHarmonics {
  public:
   using Input = Eigen::Ref<const Eigen::ArrayXXd>;
@@ -45,6 +55,20 @@ class SphericalHarmonics {
 
   int degrees() const;
   const SphereGrid& grid() const;
+
+  /// The functions that will be called; `derivatives` stands for all that return derivatives and for evaluate().
+  struct Uses {
+    bool analysis = false;
+    bool synthesis = false;
+    bool gradient = false;
+    bool derivatives = false;
+    bool adjoints = false;  ///< of those above
+  };
+
+  /// Makes the tables and the work space of these functions for up to `fields` fields, after which they do not
+  /// allocate.
+  /// @throws std::invalid_argument unless fields >= 1.
+  void prepare(const Uses& uses, int fields);
 
   /// Coefficients of `values`, Eqs. (24)-(25); resizes `coefficients` to (degrees, fields).
   /// @throws std::invalid_argument if values has not grid.size() rows, std::logic_error if degrees >
@@ -61,6 +85,30 @@ class SphericalHarmonics {
 
   /// Second derivatives, Eqs. (28)-(30).
   void second_derivatives(const Coefficients& coefficients, Output theta_theta, Output theta_phi, Output phi_phi) const;
+
+  /// First and second derivatives, from three sets of Legendre sums instead of five.
+  void derivatives(const Coefficients& coefficients, Output theta, Output phi, Output theta_theta, Output theta_phi,
+                   Output phi_phi) const;
+
+  /// Any of them, for as few Legendre sums: those of {value, phi, phi_phi}, {theta, theta_phi} and {theta_theta} are
+  /// shared.
+  struct Request {
+    Derivative derivative;
+    Output values;
+  };
+  /// @throws std::invalid_argument if a derivative is asked for twice.
+  void evaluate(const Coefficients& coefficients, std::initializer_list<Request> requests) const;
+
+  /// values = w_j dphi times the synthesis.
+  /// @throws std::logic_error if degrees > latitudes.
+  void analysis_adjoint(const Coefficients& coefficients, Output values) const;
+
+  /// f_n^m = sum over the nodes of f conj(Y_n^m); resizes `coefficients` to (degrees, fields).
+  /// @throws std::invalid_argument if an input is not (grid.size(), fields). The same holds for the functions below.
+  void synthesis_adjoint(const Input& values, Coefficients& coefficients) const;
+  void gradient_adjoint(const Input& theta, const Input& phi, Coefficients& coefficients) const;
+  void second_derivatives_adjoint(const Input& theta_theta, const Input& theta_phi, const Input& phi_phi,
+                                  Coefficients& coefficients) const;
 
  private:
   class Implementation;

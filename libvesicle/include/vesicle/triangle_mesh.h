@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// Triangles between vertices. Vertices and triangles are numbered from 0, here and in messages.
+struct TriangleMesh {
+  VectorField vertices;                            ///< shape (vertices, 3)
+  Eigen::Array<int, Eigen::Dynamic, 3> triangles;  ///< shape (triangles, 3), rows into vertices
+};
+
+/// Checks that the mesh is one closed, oriented surface of the topology of the sphere. Whether it turns outward or inward
+/// is not looked at, nor whether triangles cut through each other.
+/// @throws std::domain_error that says what is wrong and where: fewer than 4 vertices, a vertex that is not finite, two
+/// vertices at the same point, a vertex number out of range or twice in a triangle, a vertex of no triangle, an open edge,
+/// an edge of more than two triangles, a triangle that turns the other way than its neighbours, a vertex where the surface
+/// touches itself, more than one component, or a genus other than zero.
+void check_closed_genus_zero(const TriangleMesh& mesh);
+
+/// Volume (1/6) sum det(a, b, c) over the triangles of a closed mesh, > 0 when they turn outward (counterclockwise seen
+/// from outside), and centroid of the enclosed volume.
+struct EnclosedVolume {
+  double volume = 0;
+  Vector3 centroid = Vector3::Zero();
+};
+EnclosedVolume enclosed_volume(const TriangleMesh& mesh);
+
+}  // namespace vesiflow::vesicle
