@@ -7,7 +7,7 @@ option(VESIFLOW_WITH_CHOLMOD "Build the sparse direct solver, for small elliptic
 option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
 option(VESIFLOW_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
-option(VESIFLOW_BUILD_APPS "Build the apps that the libraries allow" ${PROJECT_IS_TOP_LEVEL})
+option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
 option(VESIFLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(VESIFLOW_BUILD_BENCH "Build the benchmarks" OFF)
 

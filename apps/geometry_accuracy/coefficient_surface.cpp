@@ -1,10 +1,10 @@
-#include "geometry_accuracy/coefficient_surface.h"
+#include "coefficient_surface.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "geometry_accuracy/surface_coefficients_file.h"
 #include "vesicle/spherical_harmonics.h"
+#include "vesicle/surface_file.h"
 
 using namespace vesiflow::vesicle;
 

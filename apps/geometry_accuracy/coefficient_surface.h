@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "geometry_accuracy/sampled_surface.h"
+#include "sampled_surface.h"
 
 /// A surface given by a file of its coefficients (vesicle/surface_file.h).
 class CoefficientSurface final : public SampledSurface {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry_accuracy/jet.h"
+#include "jet.h"
 
 template <class Number>
 using Point = std::array<Number, 3>;

@@ -1,4 +1,4 @@
-#include "geometry_accuracy/expansion_geometry.h"
+#include "expansion_geometry.h"
 
 #include <limits>
 

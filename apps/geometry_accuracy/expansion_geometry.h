@@ -1,6 +1,6 @@
 #pragma once
 
-#include "geometry_accuracy/surface_source.h"
+#include "surface_source.h"
 #include "vesicle/coefficients.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface_geometry.h"

@@ -1,4 +1,4 @@
-#include "geometry_accuracy/expression_surface.h"
+#include "expression_surface.h"
 
 #include <fmt/format.h>
 #include <muParser.h>

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "geometry_accuracy/sampled_surface.h"
+#include "sampled_surface.h"
 
 /// A surface given by a TOML file of expressions in theta and phi: either the radius, r = "...", or the coordinates,
 /// x = "...", y = "...", z = "..."; with constants for them in [constants], and pi. Expressions are those of muParser, in

@@ -1,4 +1,4 @@
-#include "geometry_accuracy/known_surfaces.h"
+#include "known_surfaces.h"
 
 #include <cmath>
 #include <numbers>

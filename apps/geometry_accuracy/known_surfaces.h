@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry_accuracy/exact_geometry.h"
-#include "geometry_accuracy/surface_source.h"
+#include "exact_geometry.h"
+#include "surface_source.h"
 
 /// A surface given by one formula from the unit vector (sin(theta) cos(phi), sin(theta) sin(phi), cos(theta)) to the
 /// position, for numbers and jets alike: its curvatures are exact.

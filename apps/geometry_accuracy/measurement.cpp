@@ -1,4 +1,4 @@
-#include "geometry_accuracy/measurement.h"
+#include "measurement.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "geometry_accuracy/expansion_geometry.h"
+#include "expansion_geometry.h"
 #include "vesicle/surface.h"
 
 using namespace vesiflow::vesicle;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "geometry_accuracy/surface_source.h"
+#include "surface_source.h"
 #include "vesicle/laplace_beltrami.h"
 
 struct LaplacianError {

@@ -1,4 +1,4 @@
-#include "geometry_accuracy/report.h"
+#include "report.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <span>
 #include <stdexcept>
 
-#include "geometry_accuracy/paper_table.h"
-#include "geometry_accuracy/targets.h"
+#include "paper_table.h"
+#include "targets.h"
 
 using namespace vesiflow::vesicle;
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry_accuracy/measurement.h"
+#include "measurement.h"
 
 /// Tables like Table 1, the paper's numbers beside ours, and a verdict on each target.
 std::string text_report(const std::vector<Measurement>& measurements);

@@ -1,11 +1,11 @@
-#include "geometry_accuracy/sampled_surface.h"
+#include "sampled_surface.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "geometry_accuracy/expansion_geometry.h"
+#include "expansion_geometry.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "geometry_accuracy/surface_source.h"
+#include "surface_source.h"
 #include "vesicle/coefficients.h"
 
 /// A surface without exact curvatures: its reference is evaluated from an expansion of four times the degrees (256 at

@@ -1,10 +1,10 @@
-#include "geometry_accuracy/targets.h"
+#include "targets.h"
 
 #include <fmt/format.h>
 
 #include <optional>
 
-#include "geometry_accuracy/paper_table.h"
+#include "paper_table.h"
 
 using namespace vesiflow::vesicle;
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry_accuracy/measurement.h"
+#include "measurement.h"
 
 /// One number that is to be reached.
 struct Verdict {

@@ -1,4 +1,4 @@
-#include "geometry_accuracy/exact_geometry.h"
+#include "exact_geometry.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "geometry_accuracy/known_surfaces.h"
+#include "known_surfaces.h"
 #include "vesicle/support.h"
 
 namespace {
@@ -135,7 +135,7 @@ TEST(ExactGeometry, SizesOfSurfaces) {
   }
   const VectorField red_cell = make_known_surface("biconcave")->sample(SphereGrid(201));  // with a ring at the equator
   EXPECT_NEAR(red_cell.col(0).maxCoeff(), 1, 1e-14);
-  EXPECT_NEAR(red_cell(0, 2), 0.207161 / 2, 1e-4);  // next to the pole
+  EXPECT_NEAR(red_cell(0, 2), 0.207161 / 2, 1.5e-4);  // at sin(theta) = 0.012, so 2 sin^2 / 2 thicker than at the pole
 }
 
 // Lengths scale: H by 1/s, K by 1/s^2, Lap H by 1/s^3; and the patch may be turned and sheared in its parameters.

@@ -1,4 +1,4 @@
-#include "geometry_accuracy/jet.h"
+#include "jet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "geometry_accuracy/measurement.h"
+#include "measurement.h"
 
 #include <gtest/gtest.h>
 
-#include "geometry_accuracy/known_surfaces.h"
-#include "geometry_accuracy/paper_table.h"
-#include "geometry_accuracy/targets.h"
+#include "known_surfaces.h"
+#include "paper_table.h"
+#include "targets.h"
 
 namespace {
 

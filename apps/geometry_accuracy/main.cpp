@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <map>
 
-#include "geometry_accuracy/coefficient_surface.h"
-#include "geometry_accuracy/expression_surface.h"
-#include "geometry_accuracy/known_surfaces.h"
-#include "geometry_accuracy/report.h"
+#include "coefficient_surface.h"
+#include "expression_surface.h"
+#include "known_surfaces.h"
+#include "report.h"
 
 using namespace vesiflow::vesicle;
 
