@@ -15,7 +15,10 @@ std::string reason_of(const Measurement& measurement, double found, double limit
   if (truncated_surface > limit)
     return fmt::format("the surface cut to degrees n < {} has itself an error of {:.2e}{}", measurement.latitudes,
                        truncated_surface, measurement.sampling == 1 ? "; --sampling 2 takes twice the samples" : "");
-  return "not the resolution of the surface: its expansion is good enough; rounding or the form of evaluation";
+  return fmt::format(
+      "rounding, not resolution: the surface cut to degrees n < {}, without the degrees that hold nothing "
+      "but rounding, has an error of {:.2e}",
+      measurement.latitudes, truncated_surface);
 }
 
 std::optional<double> laplacian_limit(const Measurement& measurement) {
