@@ -10,6 +10,7 @@
 #include "coefficient_surface.h"
 #include "expression_surface.h"
 #include "known_surfaces.h"
+#include "passive_waiting.h"
 #include "report.h"
 
 using namespace vesiflow::vesicle;
@@ -102,6 +103,7 @@ int geometry_accuracy(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return command_line.exit(error) == 0 ? 0 : bad_input;
   }
+  wait_passively(argv);
   Surfaces surfaces;
   for (const std::string& name : arguments.surfaces) surfaces.push_back(surface_of(name));
   const auto measurements = measure(surfaces, arguments.latitudes, arguments.sampling, options_of(arguments));
