@@ -7,7 +7,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build git pkg-config
   libeigen3-dev libfftw3-dev libsuitesparse-dev libopenblas-dev libsundials-dev libhdf5-dev
-  libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-matplotlib python3-h5py
 )
@@ -52,7 +52,7 @@ check_elsewhere() {
     command -v "$name" >/dev/null || missing+=("$name")
   done
   for name in Eigen/Core fftw3.h cholmod.h sundials/sundials_config.h hdf5.h toml++/toml.h CLI/CLI.hpp \
-    spdlog/spdlog.h fmt/core.h nlohmann/json.hpp gtest/gtest.h benchmark/benchmark.h; do
+    spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h gtest/gtest.h benchmark/benchmark.h; do
     g++ -E -x c++ -I/usr/include/eigen3 -I/usr/include/suitesparse - <<<"#include <$name>" >/dev/null 2>&1 ||
       missing+=("$name")
   done

@@ -2,16 +2,15 @@
 
 #include <fmt/format.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <optional>
 
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
 #include "coupling/plan.h"
 #include "coupling/run.h"
+#include "passive_waiting.h"
 
 using namespace vesiflow::coupling;
 
@@ -57,14 +56,6 @@ std::filesystem::path directory_of(const Arguments& arguments) {
   if (!arguments.directory.empty()) return arguments.directory;
   if (arguments.scene.empty()) return std::filesystem::absolute(arguments.checkpoint).parent_path();
   return std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem();
-}
-
-// Threads that wait by spinning cost more than they compute when cores are shared, and the OpenMP runtime reads its
-// wait policy before main: where the user has not chosen one, start again with a passive one.
-void wait_passively(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-  execv("/proc/self/exe", argv);  // returns only if it fails; then the run is slower, not wrong
 }
 
 }  // namespace
