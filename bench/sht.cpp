@@ -17,9 +17,6 @@
 #include "legendre_tables.h"
 #include "vesicle/spherical_harmonics.h"
 
-// GCC warns that passing vectors has another binary interface without AVX. None leaves this file.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace {
 
 using namespace vesiflow::vesicle;
@@ -112,7 +109,7 @@ double legendre_rate(LegendreSum sum, int latitudes, int repetitions) {
           matrix.multiply(
               width, [=](int k, int c) { return in[c * stride + k]; },
               [=](int row, int c, const auto& sums) {
-                store_rows(sums, count - row, false, out + row * width + c, width);
+                store_rows<false>(sums, count - row, out + row * width + c, width);
               });
       }
   });

@@ -4,9 +4,6 @@
 
 #include "two_stages.h"
 
-// GCC warns that passing vectors has another binary interface without AVX. None leaves this file.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 namespace vesiflow::vesicle {
 namespace {
 
@@ -161,14 +158,19 @@ void HarmonicStages::project(std::span<const NodalFields<const double>> all, con
                            {m, given.longitude_derivative, south_sign(given.kind)}, column >= fields,
                            half_sums(work, 0, field), half_sums(work, 1, field));
         }
-        sum_latitudes(table(group[0].kind, LegendreSum::over_latitudes), m, add, work, coefficients);
+        const LegendreTable& functions = table(group[0].kind, LegendreSum::over_latitudes);
+        if (add)
+          sum_latitudes<true>(functions, m, work, coefficients);
+        else
+          sum_latitudes<false>(functions, m, work, coefficients);
       }
     };
     in_two_stages(threads(fields), transform_rings, sum_orders);
   });
 }
 
-void HarmonicStages::sum_latitudes(const LegendreTable& functions, int m, bool add, Workspace& work,
+template <bool add>
+void HarmonicStages::sum_latitudes(const LegendreTable& functions, int m, Workspace& work,
                                    Coefficients& coefficients) {
   const int width = 2 * coefficients.fields();
   const std::ptrdiff_t stride = half_stride();
@@ -179,7 +181,7 @@ void HarmonicStages::sum_latitudes(const LegendreTable& functions, int m, bool a
     functions.matrix(m, parity).multiply(
         width, [=](int k, int c) { return folded[c * stride + k]; },
         [=](int row, int c, const auto& panel) {
-          store_rows(panel, count - row, add, block + std::ptrdiff_t(row) * width + c, width);
+          store_rows<add>(panel, count - row, block + std::ptrdiff_t(row) * width + c, width);
         });
   }
 }

@@ -62,7 +62,9 @@ class HarmonicStages {
   void sum_degrees(const Coefficients& coefficients, const LegendreTable& table, int m, Workspace& work);
   void fill_mode(int k, const Coefficients& coefficients, std::span<const NodalFields<double>> results,
                  Workspace& work);
-  void sum_latitudes(const LegendreTable& table, int m, bool add, Workspace& work, Coefficients& coefficients);
+  /// Sets the coefficients of order m, or adds to them.
+  template <bool add>
+  void sum_latitudes(const LegendreTable& table, int m, Workspace& work, Coefficients& coefficients);
 
   int degrees_;
   LongitudeTransform transform_;

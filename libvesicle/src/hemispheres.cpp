@@ -1,25 +1,13 @@
 #include "hemispheres.h"
 
-#include <cstring>
 #include <utility>
 
-// GCC warns that passing vectors has another binary interface without AVX. None leaves this file.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "lanes.h"
 
 namespace vesiflow::vesicle {
 namespace {
 
 constexpr int block_rings = LongitudeTransform::block_rings;
-
-Lanes load(const double* from) {
-  Lanes v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-
-void store(double* to, Lanes v) {
-  std::memcpy(to, &v, sizeof v);
-}
 
 /// Four complex numbers.
 struct ComplexLanes {
@@ -27,8 +15,8 @@ struct ComplexLanes {
 };
 
 ComplexLanes load_complex(const std::complex<double>* from) {
-  const Lanes a = load(reinterpret_cast<const double*>(from));
-  const Lanes b = load(reinterpret_cast<const double*>(from) + lane_count);
+  const Lanes a = load<Lanes>(reinterpret_cast<const double*>(from));
+  const Lanes b = load<Lanes>(reinterpret_cast<const double*>(from) + lane_count);
   return {__builtin_shufflevector(a, b, 0, 2, 4, 6), __builtin_shufflevector(a, b, 1, 3, 5, 7)};
 }
 
@@ -37,8 +25,8 @@ void store_complex(std::complex<double>* to, Lanes real, Lanes imaginary, bool a
   Lanes a = __builtin_shufflevector(real, imaginary, 0, 4, 1, 5);
   Lanes b = __builtin_shufflevector(real, imaginary, 2, 6, 3, 7);
   if (add) {
-    a += load(out);
-    b += load(out + lane_count);
+    a += load<Lanes>(out);
+    b += load<Lanes>(out + lane_count);
   }
   store(out, a);
   store(out + lane_count, b);
@@ -73,8 +61,8 @@ void unfold_hemispheres(const HalfSums& even, const HalfSums& odd, const OrderFa
 #pragma GCC unroll 2
     for (int r = 0; r < block_rings; r += lane_count) {
       const int j = block * block_rings + r;
-      const Lanes er = factor.real * load(e.real + j), ei = factor.imaginary * load(e.imaginary + j);
-      const Lanes orr = factor.real * load(o.real + j), oi = factor.imaginary * load(o.imaginary + j);
+      const Lanes er = factor.real * load<Lanes>(e.real + j), ei = factor.imaginary * load<Lanes>(e.imaginary + j);
+      const Lanes orr = factor.real * load<Lanes>(o.real + j), oi = factor.imaginary * load<Lanes>(o.imaginary + j);
       const Lanes north_real = er + orr, north_imaginary = ei + oi;
       const Lanes south_real = order.south_sign * (er - orr), south_imaginary = order.south_sign * (ei - oi);
       if (positive != negative) {
@@ -106,12 +94,12 @@ void fold_hemispheres(LongitudeTransform& transform, int column, const double* w
     for (int r = 0; r < block_rings; r += lane_count) {
       const int j = block * block_rings + r;
       const ComplexLanes p = load_complex(plus + r), q = load_complex(minus + r);
-      const Lanes w = load(weight + j);
+      const Lanes w = load<Lanes>(weight + j);
       const Lanes wr = factor.real * w, wi = factor.imaginary * w;
       const Lanes north_real = wr * (p.real + q.real), north_imaginary = wi * (p.imaginary - q.imaginary);
       const Lanes south_real = order.south_sign * wr * (p.imaginary + q.imaginary);
       const Lanes south_imaginary = order.south_sign * wi * (q.real - p.real);
-      const auto put = [add](double* to, Lanes sum) { store(to, add ? load(to) + sum : sum); };
+      const auto put = [add](double* to, Lanes sum) { store(to, add ? load<Lanes>(to) + sum : sum); };
       put(e.real + j, north_real + south_real);
       put(e.imaginary + j, north_imaginary + south_imaginary);
       put(o.real + j, north_real - south_real);

@@ -1,8 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <new>
+
+// GCC warns that passing vectors has another binary interface without AVX. No vector leaves a source file that
+// includes this, so the warning is off for the rest of it.
+#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace vesiflow::vesicle {
 
@@ -13,6 +18,18 @@ using VectorOf __attribute__((vector_size(count * sizeof(double)))) = double;
 /// What folding and unfolding work on: four rings.
 using Lanes = VectorOf<4>;
 inline constexpr int lane_count = 4;
+
+template <class Vector>
+Vector load(const double* from) {
+  Vector v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+
+template <class Vector>
+void store(double* to, Vector v) {
+  std::memcpy(to, &v, sizeof v);
+}
 
 /// Zeros that begin on a cache line: the bits and the speed of a program must not hang on where memory was found.
 struct AlignedRelease {
