@@ -31,6 +31,31 @@ void store(double* to, Vector v) {
   std::memcpy(to, &v, sizeof v);
 }
 
+/// Four complex numbers by parts.
+struct ComplexLanes {
+  Lanes real, imaginary;
+};
+
+// Two exchanges between the halves of vectors and two within: GCC makes six of the direct permutations.
+inline ComplexLanes load_complex(const double* from) {
+  const Lanes a = load<Lanes>(from), b = load<Lanes>(from + lane_count);
+  const Lanes even = __builtin_shufflevector(a, b, 0, 1, 4, 5), odd = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  return {__builtin_shufflevector(even, odd, 0, 4, 2, 6), __builtin_shufflevector(even, odd, 1, 5, 3, 7)};
+}
+
+template <bool add = false>
+inline void store_complex(double* to, Lanes real, Lanes imaginary) {
+  const Lanes even = __builtin_shufflevector(real, imaginary, 0, 4, 2, 6);
+  const Lanes odd = __builtin_shufflevector(real, imaginary, 1, 5, 3, 7);
+  Lanes a = __builtin_shufflevector(even, odd, 0, 1, 4, 5), b = __builtin_shufflevector(even, odd, 2, 3, 6, 7);
+  if constexpr (add) {
+    a += load<Lanes>(to);
+    b += load<Lanes>(to + lane_count);
+  }
+  store(to, a);
+  store(to + lane_count, b);
+}
+
 /// Zeros that begin on a cache line: the bits and the speed of a program must not hang on where memory was found.
 struct AlignedRelease {
   template <class Value>
