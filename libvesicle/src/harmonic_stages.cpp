@@ -163,8 +163,7 @@ void HarmonicStages::project(std::span<const NodalFields<const double>> all, con
 }
 
 template <bool add>
-void HarmonicStages::sum_latitudes(const LegendreTable& functions, int m, Workspace& work,
-                                   Coefficients& coefficients) {
+void HarmonicStages::sum_latitudes(const LegendreTable& functions, int m, Workspace& work, Coefficients& coefficients) {
   const int width = 2 * coefficients.fields();
   const std::ptrdiff_t stride = half_stride();
   for (int parity : {0, 1}) {

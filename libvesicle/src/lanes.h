@@ -60,7 +60,7 @@ inline void store_complex(double* to, Lanes real, Lanes imaginary) {
 struct AlignedRelease {
   template <class Value>
   void operator()(Value* memory) const {
-    ::operator delete(memory, std::align_val_t{64});
+    ::operator delete (memory, std::align_val_t{64});
   }
 };
 template <class Value>
@@ -68,7 +68,7 @@ using AlignedArray = std::unique_ptr<Value[], AlignedRelease>;
 
 template <class Value>
 AlignedArray<Value> allocate_aligned(std::size_t count) {
-  auto* memory = static_cast<Value*>(::operator new(sizeof(Value) * count, std::align_val_t{64}));
+  auto* memory = static_cast<Value*>(::operator new (sizeof(Value) * count, std::align_val_t{64}));
   std::uninitialized_fill_n(memory, count, Value{});
   return AlignedArray<Value>(memory);
 }

@@ -93,7 +93,8 @@ class PanelMatrix {
     for (int k = 0; k < columns_; ++k, panel += rows) {
       Vector left[vectors];
 #pragma GCC unroll 8
-      for (int v = 0; v < vectors; ++v) left[v] = load<Vector>(panel + v * lanes / rows * next_panel + v * lanes % rows);
+      for (int v = 0; v < vectors; ++v)
+        left[v] = load<Vector>(panel + v * lanes / rows * next_panel + v * lanes % rows);
 #pragma GCC unroll 8
       for (int c = 0; c < width; ++c) {
         const double right = factor(k, column + c);

@@ -83,8 +83,8 @@ TEST(Coefficients, DotIsTheIntegralOverTheSphere) {
   harmonics.synthesis(b, g);
   double integral = 0;
   for (int j = 0; j < 12; ++j)
-    integral += grid.weight()[j] * grid.longitude_spacing() *
-                (f * g).middleRows(grid.index(0, j), grid.longitudes()).sum();
+    integral +=
+        grid.weight()[j] * grid.longitude_spacing() * (f * g).middleRows(grid.index(0, j), grid.longitudes()).sum();
   EXPECT_NEAR(a.dot(b), integral, 1e-12);
   EXPECT_DOUBLE_EQ(a.dot(a), a.energy(0, 12));
   EXPECT_THROW(a.dot(random_coefficients(11, 2, 1)), std::invalid_argument);
