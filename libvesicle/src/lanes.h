@@ -27,7 +27,7 @@ Vector load(const double* from) {
 }
 
 template <class Vector>
-void store(double* to, Vector v) {
+void store(double* to, const Vector& v) {
   std::memcpy(to, &v, sizeof v);
 }
 
@@ -44,7 +44,7 @@ inline ComplexLanes load_complex(const double* from) {
 }
 
 template <bool add = false>
-inline void store_complex(double* to, Lanes real, Lanes imaginary) {
+inline void store_complex(double* to, const Lanes& real, const Lanes& imaginary) {
   const Lanes even = __builtin_shufflevector(real, imaginary, 0, 4, 2, 6);
   const Lanes odd = __builtin_shufflevector(real, imaginary, 1, 5, 3, 7);
   Lanes a = __builtin_shufflevector(even, odd, 0, 1, 4, 5), b = __builtin_shufflevector(even, odd, 2, 3, 6, 7);
