@@ -69,7 +69,7 @@ double multiply_add_rate(int repetitions) {
   return 2.0 * sums * steps * double(sizeof(Vector) / sizeof(double)) / time.minimum * 1e-3;
 }
 
-/// FFTW's estimated in-order complex transforms of N rings of L points, as the ring pairs of two fields would be: time
+/// FFTW's complex transforms, planned by estimate, of N rings of L points, as the ring pairs of two fields would be: time
 /// per scalar field.
 Time fft(int latitudes, int longitudes, int repetitions) {
   const std::size_t size = std::size_t(latitudes) * longitudes;
