@@ -10,15 +10,12 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fftw3.h>
 #include <omp.h>
+#include <CLI/CLI.hpp>
 
 #include "legendre_tables.h"
 #include "vesicle/spherical_harmonics.h"
-
-// GCC warns that passing vectors has another binary interface without AVX. None leaves this file.
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace {
 
@@ -72,7 +69,7 @@ double multiply_add_rate(int repetitions) {
   return 2.0 * sums * steps * double(sizeof(Vector) / sizeof(double)) / time.minimum * 1e-3;
 }
 
-/// FFTW's estimated in-order complex transforms of N rings of L points, as the ring pairs of two fields would be: time
+/// FFTW's complex transforms, planned by estimate, of N rings of L points, as the ring pairs of two fields would be: time
 /// per scalar field.
 Time fft(int latitudes, int longitudes, int repetitions) {
   const std::size_t size = std::size_t(latitudes) * longitudes;
@@ -112,7 +109,7 @@ double legendre_rate(LegendreSum sum, int latitudes, int repetitions) {
           matrix.multiply(
               width, [=](int k, int c) { return in[c * stride + k]; },
               [=](int row, int c, const auto& sums) {
-                store_rows(sums, count - row, false, out + row * width + c, width);
+                store_rows<false>(sums, count - row, out + row * width + c, width);
               });
       }
   });
@@ -126,10 +123,14 @@ struct Shtns {
 };
 Shtns shtns(int latitudes) {
   switch (latitudes) {
-    case 32: return {4.0, 3.1, 6.1};
-    case 64: return {23, 20, 39};
-    case 128: return {127, 117, 225};
-    default: return {};
+    case 32:
+      return {4.0, 3.1, 6.1};
+    case 64:
+      return {23, 20, 39};
+    case 128:
+      return {127, 117, 225};
+    default:
+      return {};
   }
 }
 
@@ -187,23 +188,26 @@ int main(int argc, char** argv) {
     const double degrees_rate = legendre_rate(LegendreSum::over_degrees, latitudes, repetitions);
     const double latitudes_rate = legendre_rate(LegendreSum::over_latitudes, latitudes, repetitions);
     if (json)
-      std::printf("%s\n {\"latitudes\": %d, \"fft_us\": %.3f, \"legendre_GFs\": {\"over_degrees\": %.2f, "
-                  "\"over_latitudes\": %.2f}, \"transforms\": [",
-                  first ? "" : ",", latitudes, one_fft.minimum, degrees_rate, latitudes_rate);
+      std::printf(
+          "%s\n {\"latitudes\": %d, \"fft_us\": %.3f, \"legendre_GFs\": {\"over_degrees\": %.2f, "
+          "\"over_latitudes\": %.2f}, \"transforms\": [",
+          first ? "" : ",", latitudes, one_fft.minimum, degrees_rate, latitudes_rate);
     else
-      std::printf("\nN = %d: FFT alone %.2f; Legendre sums over degrees %.1f GF/s (%.2f of multiply-adds), over "
-                  "latitudes %.1f (%.2f)\n%-16s %8s %9s %9s %7s %7s %8s\n",
-                  latitudes, one_fft.minimum, degrees_rate, degrees_rate / peak, latitudes_rate, latitudes_rate / peak,
-                  "", "threads", "minimum", "median", "/ FFT", "SHTns", "/ SHTns");
+      std::printf(
+          "\nN = %d: FFT alone %.2f; Legendre sums over degrees %.1f GF/s (%.2f of multiply-adds), over "
+          "latitudes %.1f (%.2f)\n%-16s %8s %9s %9s %7s %7s %8s\n",
+          latitudes, one_fft.minimum, degrees_rate, degrees_rate / peak, latitudes_rate, latitudes_rate / peak, "",
+          "threads", "minimum", "median", "/ FFT", "SHTns", "/ SHTns");
     bool first_row = true;
     for (const int threads : {1, 2}) {
       omp_set_num_threads(threads);
       for (const Row& row : transforms(latitudes, repetitions)) {
         if (json) {
-          std::printf("%s\n  {\"name\": \"%s\", \"threads\": %d, \"minimum_us\": %.3f, \"median_us\": %.3f, "
-                      "\"per_fft\": %.3f",
-                      first_row ? "" : ",", row.name.c_str(), threads, row.time.minimum, row.time.median,
-                      row.time.minimum / one_fft.minimum);
+          std::printf(
+              "%s\n  {\"name\": \"%s\", \"threads\": %d, \"minimum_us\": %.3f, \"median_us\": %.3f, "
+              "\"per_fft\": %.3f",
+              first_row ? "" : ",", row.name.c_str(), threads, row.time.minimum, row.time.median,
+              row.time.minimum / one_fft.minimum);
           if (row.shtns > 0) std::printf(", \"shtns_us\": %.1f", row.shtns);
           std::printf("}");
         } else {

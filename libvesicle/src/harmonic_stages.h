@@ -54,15 +54,22 @@ class HarmonicStages {
 
   template <class Fields, class Use>
   static void for_each_kind(Fields all, const Use& use);
-  const LegendreTable& table(LegendreKind kind, LegendreSum sum) const;
+  const LegendreTable& table(LegendreKind kind, LegendreSum sum) const {
+    return *tables_[static_cast<int>(kind)][static_cast<int>(sum)];
+  }
   int threads(int fields) const;
   int half_stride() const { return transform_.blocks() * LongitudeTransform::block_rings; }
-  HalfSums half_sums(Workspace& work, int parity, int field) const;
+  HalfSums half_sums(const Workspace& work, int parity, int field) const {
+    double* const real = work.half_sums[parity].get() + std::ptrdiff_t(2) * field * half_stride();
+    return {real, real + half_stride()};
+  }
 
   void sum_degrees(const Coefficients& coefficients, const LegendreTable& table, int m, Workspace& work);
   void fill_mode(int k, const Coefficients& coefficients, std::span<const NodalFields<double>> results,
                  Workspace& work);
-  void sum_latitudes(const LegendreTable& table, int m, bool add, Workspace& work, Coefficients& coefficients);
+  /// Sets the coefficients of order m, or adds to them.
+  template <bool add>
+  void sum_latitudes(const LegendreTable& table, int m, Workspace& work, Coefficients& coefficients);
 
   int degrees_;
   LongitudeTransform transform_;

@@ -24,8 +24,8 @@ constexpr int degree_count(int degrees, int m, int parity) {
 /// south; the first derivative has the opposite one.
 ///
 /// Near the pole high orders decay like sin(theta)^m. Of each order the leading latitudes (in fours) where no
-/// function exceeds 1e-22 are left out: six orders of magnitude below the rounding of any field of that order, and a
-/// tenth of the work at 128 latitudes. What is smaller than 1e-150 elsewhere is stored as zero: it would otherwise
+/// function exceeds 1e-22 are left out: six orders of magnitude below the rounding of any field of that order, and six
+/// per cent of the work at 128 latitudes, ten at 256. What is smaller than 1e-150 elsewhere is stored as zero: it would otherwise
 /// breed denormal numbers, which are a hundred times slower.
 class LegendreTable {
  public:

@@ -64,8 +64,10 @@ void LongitudeTransform::forward(const double* values, int column, int block, Co
     const double* north = values + j * longitudes_;
     const double* south = values + (latitudes_ - 1 - j) * longitudes_;
     double* ring = reinterpret_cast<double*>(rings + std::ptrdiff_t(r) * longitudes_);
-#pragma GCC ivdep
-    for (int i = 0; i < longitudes_; ++i) {
+    int i = 0;
+    for (; i + lane_count <= longitudes_; i += lane_count)
+      store_complex(ring + 2 * i, load<Lanes>(north + i), load<Lanes>(south + i));
+    for (; i < longitudes_; ++i) {
       ring[2 * i] = north[i];
       ring[2 * i + 1] = south[i];
     }
@@ -80,8 +82,13 @@ void LongitudeTransform::backward(int column, int block, double* values, Complex
     double* north = values + j * longitudes_;
     double* south = values + (latitudes_ - 1 - j) * longitudes_;
     const double* ring = reinterpret_cast<const double*>(rings + std::ptrdiff_t(r) * longitudes_);
-#pragma GCC ivdep
-    for (int i = 0; i < longitudes_; ++i) {
+    int i = 0;
+    for (; i + lane_count <= longitudes_; i += lane_count) {
+      const ComplexLanes pair = load_complex(ring + 2 * i);
+      store(north + i, pair.real);
+      store(south + i, pair.imaginary);
+    }
+    for (; i < longitudes_; ++i) {
       north[i] = ring[2 * i];
       south[i] = ring[2 * i + 1];
     }

@@ -30,12 +30,18 @@ class FieldList {
  private:
   static std::size_t slot_of(Derivative derivative) {
     switch (derivative) {
-      case Derivative::value: return 0;
-      case Derivative::phi: return 1;
-      case Derivative::phi_phi: return 2;
-      case Derivative::theta: return 3;
-      case Derivative::theta_phi: return 4;
-      case Derivative::theta_theta: break;
+      case Derivative::value:
+        return 0;
+      case Derivative::phi:
+        return 1;
+      case Derivative::phi_phi:
+        return 2;
+      case Derivative::theta:
+        return 3;
+      case Derivative::theta_phi:
+        return 4;
+      case Derivative::theta_theta:
+        break;
     }
     return 5;
   }
@@ -173,9 +179,9 @@ void SphericalHarmonics::gradient(const Coefficients& coefficients, Output theta
 
 void SphericalHarmonics::second_derivatives(const Coefficients& coefficients, Output theta_theta, Output theta_phi,
                                             Output phi_phi) const {
-  evaluate(coefficients, {{Derivative::theta_theta, theta_theta},
-                          {Derivative::theta_phi, theta_phi},
-                          {Derivative::phi_phi, phi_phi}});
+  evaluate(
+      coefficients,
+      {{Derivative::theta_theta, theta_theta}, {Derivative::theta_phi, theta_phi}, {Derivative::phi_phi, phi_phi}});
 }
 
 void SphericalHarmonics::derivatives(const Coefficients& coefficients, Output theta, Output phi, Output theta_theta,
@@ -205,10 +211,9 @@ void SphericalHarmonics::gradient_adjoint(const Input& theta, const Input& phi, 
 
 void SphericalHarmonics::second_derivatives_adjoint(const Input& theta_theta, const Input& theta_phi,
                                                     const Input& phi_phi, Coefficients& coefficients) const {
-  implementation_->project_adjoint({{Derivative::theta_theta, theta_theta},
-                                    {Derivative::theta_phi, theta_phi},
-                                    {Derivative::phi_phi, phi_phi}},
-                                   coefficients);
+  implementation_->project_adjoint(
+      {{Derivative::theta_theta, theta_theta}, {Derivative::theta_phi, theta_phi}, {Derivative::phi_phi, phi_phi}},
+      coefficients);
 }
 
 }  // namespace vesiflow::vesicle

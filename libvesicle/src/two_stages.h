@@ -21,7 +21,7 @@ inline int available_threads(int most) {
 
 /// Calls first(thread, threads) on each thread and, when all are done, second(thread, threads).
 template <class First, class Second>
-void in_two_stages(int threads, const First& first, const Second& second) {
+void in_two_stages([[maybe_unused]] int threads, const First& first, const Second& second) {
 #ifdef _OPENMP
   if (threads > 1) {
 #pragma omp parallel num_threads(threads)

@@ -35,7 +35,7 @@ no_optional=()
 for package in HDF5 HDF5C SUNDIALS spdlog fmt; do
   no_optional+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
-consume vesicle curvatures "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON
+consume vesicle curvatures "${no_optional[@]}"
 consume fluid lid_driven_cavity "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
 consume coupling extension
 
@@ -48,8 +48,9 @@ if cmake -S "$scratch" -B "$scratch/unknown" -G Ninja -DCMAKE_PREFIX_PATH="$scra
   exit 1
 fi
 
-# The same program with the source tree as a part of it, and with one library alone.
+# The same program with the source tree as a part of it, and with one library alone, which does without OpenMP.
 configure "$here/vesicle" subdirectory "${no_optional[@]}" -DVESIFLOW_SOURCE="$here/../.." \
+  -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON \
   -DVESIFLOW_LIBRARIES=vesicle -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PROJECT_TOP_LEVEL_INCLUDES="$here/as_subdirectory.cmake"
 quietly cmake --build "$scratch/subdirectory"
 quietly "$scratch/subdirectory/curvatures"

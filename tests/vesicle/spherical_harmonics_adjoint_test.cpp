@@ -23,9 +23,9 @@ struct Case {
 
 /// Fewer and more degrees than latitudes (with several windings of the orders), more longitudes than twice the
 /// latitudes, the smallest grids, both parities, and panels of four and of eight rows.
-const Case cases[] = {{2, 4, 2, 1},    {3, 6, 3, 2},   {4, 8, 9, 1},    {5, 14, 5, 3},  {8, 16, 16, 3},
-                      {9, 18, 23, 2},  {7, 30, 14, 1}, {12, 24, 12, 4}, {16, 40, 10, 5}, {31, 62, 31, 3},
-                      {32, 64, 64, 1}, {33, 66, 33, 6}};
+const Case cases[] = {{2, 4, 2, 1},    {3, 6, 3, 2},    {4, 8, 9, 1},    {5, 14, 5, 3},
+                      {8, 16, 16, 3},  {9, 18, 23, 2},  {7, 30, 14, 1},  {12, 24, 12, 4},
+                      {16, 40, 10, 5}, {31, 62, 31, 3}, {32, 64, 64, 1}, {33, 66, 33, 6}};
 
 Eigen::ArrayXXd random_fields(const SphereGrid& grid, int fields, unsigned seed) {
   std::mt19937 generator(seed);

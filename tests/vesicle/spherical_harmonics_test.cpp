@@ -21,18 +21,55 @@ double max_difference(const Coefficients& a, const Coefficients& b) {
   return largest;
 }
 
-TEST(SphericalHarmonics, RoundTripForAnyNumberOfFieldsAndParityOfLatitudes) {
-  for (int latitudes : {4, 5, 16, 31, 64})
-    for (int fields : {1, 2, 3, 6}) {
-      const SphereGrid grid(latitudes);
-      const SphericalHarmonics harmonics(latitudes, grid);
-      const Coefficients given = random_coefficients(latitudes, fields, 1);
-      Eigen::ArrayXXd values(grid.size(), fields);
-      harmonics.synthesis(given, values);
-      Coefficients found;
-      harmonics.analysis(values, found);
-      EXPECT_LT(max_difference(given, found), 5e-14) << latitudes << ' ' << fields;
+void expect_round_trip(int degrees, const SphereGrid& grid, int fields, double tolerance) {
+  const SphericalHarmonics harmonics(degrees, grid);
+  const Coefficients given = random_coefficients(degrees, fields, 1);
+  Eigen::ArrayXXd values(grid.size(), fields);
+  harmonics.synthesis(given, values);
+  Coefficients found;
+  harmonics.analysis(values, found);
+  EXPECT_LT(max_difference(given, found), tolerance)
+      << degrees << ' ' << grid.latitudes() << ' ' << grid.longitudes() << ' ' << fields;
+}
+
+TEST(SphericalHarmonics, RoundTripForAnyNumberOfFieldsAndLatitudes) {
+  for (int latitudes : {2, 3, 4, 5, 7, 8, 16, 31, 32, 33, 64})
+    for (int fields : {1, 2, 3, 6}) expect_round_trip(latitudes, SphereGrid(latitudes), fields, 5e-14);
+  expect_round_trip(127, SphereGrid(127), 1, 2e-13);
+}
+
+TEST(SphericalHarmonics, RoundTripWithMoreLongitudesOrFewerDegrees) {
+  for (int longitudes : {10, 12, 14, 30}) expect_round_trip(5, SphereGrid(5, longitudes), 2, 2e-14);
+  expect_round_trip(20, SphereGrid(32, 90), 3, 5e-14);
+}
+
+TEST(SphericalHarmonics, RoundTripOfFewDegreesAtMostLatitudes) {
+  expect_round_trip(24, SphereGrid(512), 1, 2e-13);
+}
+
+/// Of the highest orders on many latitudes most of the table is negligible: energies and the derivatives' identity
+/// int |grad f|^2 = n (n + 1) int f^2 hold nevertheless.
+TEST(SphericalHarmonics, GradientHasTheEigenvalueOfTheLaplacian) {
+  for (int latitudes : {3, 4, 5, 7, 8, 31, 32, 33, 64, 127}) {
+    const SphereGrid grid(latitudes);
+    const SphericalHarmonics harmonics(latitudes, grid);
+    const int n = latitudes - 1;
+    for (int m : {0, 1, n / 2, n - 1, n}) {
+      Coefficients c(latitudes, 1);
+      c.set_zero();
+      c(0, n, m) = m == 0 ? 1 : std::sqrt(0.5);
+      ScalarField t(grid.size()), p(grid.size());
+      harmonics.gradient(c, t, p);
+      double integral = 0;
+      for (int j = 0; j < latitudes; ++j) {
+        const Eigen::Index ring = grid.index(0, j), count = grid.longitudes();
+        const double s = grid.sin_colatitude()[j];
+        integral += grid.weight()[j] * grid.longitude_spacing() *
+                    (t.segment(ring, count).square() + (p.segment(ring, count) / s).square()).sum();
+      }
+      EXPECT_NEAR(integral / (n * (n + 1)), 1, 1e-13) << latitudes << ' ' << m;
     }
+  }
 }
 
 TEST(SphericalHarmonics, SynthesisMatchesDirectSummation) {
