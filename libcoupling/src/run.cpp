@@ -70,6 +70,7 @@ class Run {
 
   void start();
   void rewind_files();
+  void log_redistributions() const;
   void record(bool last);
   void checkpoint();
   void finish(const std::string& status);
@@ -134,6 +135,14 @@ void Run::rewind_files() {
   fluid_snapshots_->rewind(step);
 }
 
+void Run::log_redistributions() const {
+  if (options_.quiet) return;
+  for (const auto& [vesicle, report] : simulation_.last_redistributions())
+    spdlog::info("t = {:.6g}: markers of vesicle {} redistributed, aspect ratio {:.3g} -> {:.3g}, spectrum tail {:.1e} -> {:.1e}",
+                 simulation_.time(), vesicle, report.before.aspect_ratio, report.after.aspect_ratio,
+                 report.before.spectrum_tail, report.after.spectrum_tail);
+}
+
 void Run::checkpoint() {
   write_checkpoint(checkpoint_file(), simulation_);
   last_checkpoint_ = checkpoint_file();
@@ -185,6 +194,7 @@ RunStatus Run::execute() {
       const PhaseTimer timer(record_.wall_seconds);
       simulation_.step();
       ++record_.steps_taken;
+      log_redistributions();
       progress.update(simulation_);
       record(simulation_.steps() == last);
     } catch (const SimulationStopped& reason) {

@@ -23,6 +23,8 @@ void visit_record(const vesicle::Diagnostics& d,
   number("tension_min", d.tension_min);
   number("tension_max", d.tension_max);
   number("spectrum_tail", d.spectrum_tail);
+  number("mesh_aspect_ratio", d.mesh_aspect_ratio);
+  number("mesh_area_ratio", d.mesh_area_ratio);
 }
 
 }  // namespace vesiflow::coupling

@@ -7,6 +7,7 @@
 
 #include "check.h"
 #include "vesicle/bending.h"
+#include "vesicle/mesh_quality.h"
 #include "vesicle/shapes.h"
 
 namespace vesiflow::vesicle {
@@ -108,7 +109,10 @@ Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity
   d.bending_energy = bending_energy(surface);
   d.tension_min = membrane.tension().minCoeff();
   d.tension_max = membrane.tension().maxCoeff();
-  d.spectrum_tail = spectrum_tail(surface);
+  const MeshQuality mesh = mesh_quality(surface);
+  d.spectrum_tail = mesh.spectrum_tail;
+  d.mesh_aspect_ratio = mesh.aspect_ratio;
+  d.mesh_area_ratio = mesh.area_ratio;
   return d;
 }
 

@@ -9,12 +9,14 @@
 #include "vesicle/curvature_laplacian.h"
 #include "vesicle/membrane.h"
 #include "vesicle/mesh_control.h"
+#include "vesicle/redistribution.h"
 
 namespace vesiflow::coupling {
 
 enum class Preset { standard, paper };
 enum class FlowType { rest, shear, custom };
 enum class FlowStart { flow, rest };
+enum class Redistribute { never, when_needed };
 enum class Shape { sphere, prolate, oblate, ellipsoid };
 
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
@@ -65,6 +67,9 @@ struct Scene {
     vesicle::SlipReference slip = vesicle::SlipReference::dealiased;
     int normal_degrees = 0;       ///< degrees kept in the velocity that shapes; 0: two thirds
     int tangential_degrees = 15;  ///< degrees kept in the velocity along the membrane
+    Redistribute redistribute = Redistribute::when_needed;
+    double max_aspect_ratio = vesicle::RedistributionLimits{}.aspect_ratio;
+    double max_spectrum_tail = vesicle::RedistributionLimits{}.spectrum_tail;
   } mesh;
   struct Time {
     double step = 1.0 / 192.0;

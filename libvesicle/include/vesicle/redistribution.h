@@ -8,6 +8,16 @@
 
 namespace vesiflow::vesicle {
 
+/// When a mesh calls for redistribution: beyond either limit.
+struct RedistributionLimits {
+  double aspect_ratio = 8;
+  double spectrum_tail = 1e-8;
+
+  bool passed_by(const MeshQuality& quality) const {
+    return quality.aspect_ratio > aspect_ratio || quality.spectrum_tail > spectrum_tail;
+  }
+};
+
 /// What redistribute() did.
 struct RedistributionReport {
   bool moved = false;          ///< whether there is a new mesh
