@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <Eigen/Geometry>
+
 #include "check.h"
 #include "vesicle/mesh_control.h"
 
@@ -45,7 +47,7 @@ MeshRedistribution::MeshRedistribution(int latitudes)
       evaluation_(latitudes) {
   const Eigen::Index markers = surface_.grid().size();
   for (VectorField* field : {&map_, &map_theta_, &map_phi_, &trial_map_, &trial_positions_, &displacement_, &residual_,
-                             &direction_, &product_, &preconditioned_})
+                             &direction_, &product_, &preconditioned_, &map_step_, &old_positions_})
     *field = VectorField::Zero(markers, 3);
   map_ = unit_sphere(surface_.grid());
 }
@@ -68,6 +70,7 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
   double last = report.energy_before;
   while (report.iterations < max_iterations && last > 0) {
     find_displacement();
+    pull_back();
     if (!move(original)) break;
     ++report.iterations;
     const double now = energy();
@@ -140,23 +143,36 @@ void MeshRedistribution::find_displacement() {
   }
 }
 
-bool MeshRedistribution::move(const Coefficients& original) {
-  const double before = energy();
+void MeshRedistribution::pull_back() {
   surface_.harmonics().analysis(map_, coefficients_);
   surface_.harmonics().gradient(coefficients_, map_theta_, map_phi_);
-  // Dual tangents through the first form, which Surface keeps to itself.
-  const ScalarField alpha = (displacement_ * surface_.geometry().dual_theta()).rowwise().sum();
-  const ScalarField beta = (displacement_ * surface_.geometry().dual_phi()).rowwise().sum();
+  const ScalarField theta = (displacement_ * surface_.geometry().dual_theta()).rowwise().sum();
+  const ScalarField phi = (displacement_ * surface_.geometry().dual_phi()).rowwise().sum();
   for (int component = 0; component < 3; ++component)
-    product_.col(component) = alpha * map_theta_.col(component) + beta * map_phi_.col(component);
-  smoothing_.analysis(product_, coefficients_);
-  smoothing_.synthesis(coefficients_, product_);
-  const double longest = std::sqrt(product_.square().rowwise().sum().maxCoeff());
+    map_step_.col(component) = theta * map_theta_.col(component) + phi * map_phi_.col(component);
+  smoothing_.analysis(map_step_, coefficients_);
+  smoothing_.synthesis(coefficients_, map_step_);
+}
+
+bool MeshRedistribution::is_one_to_one(const VectorField& map) {
+  surface_.harmonics().analysis(map, coefficients_);
+  surface_.harmonics().gradient(coefficients_, map_theta_, map_phi_);
+  for (Eigen::Index k = 0; k < map.rows(); ++k) {
+    const Vector3 theta = map_theta_.row(k).matrix().transpose(), phi = map_phi_.row(k).matrix().transpose();
+    if (!(theta.cross(phi).dot(map.row(k).matrix().transpose()) > 0)) return false;
+  }
+  return true;
+}
+
+bool MeshRedistribution::move(const Coefficients& original) {
+  const double before = energy();
+  const double longest = std::sqrt(map_step_.square().rowwise().sum().maxCoeff());
   double step = std::min(1.0, longest_step / longest);
-  const VectorField positions = surface_.positions();
+  old_positions_ = surface_.positions();
   for (int k = 0; k <= halvings; ++k, step /= 2) {
-    trial_map_ = map_ + step * product_;
+    trial_map_ = map_ + step * map_step_;
     normalise(trial_map_);
+    if (!is_one_to_one(trial_map_)) continue;
     evaluation_.values_at(original, trial_map_, trial_positions_);
     surface_.update(trial_positions_);
     if (energy() < before) {
@@ -164,7 +180,7 @@ bool MeshRedistribution::move(const Coefficients& original) {
       return true;
     }
   }
-  surface_.update(positions);
+  surface_.update(old_positions_);
   return false;
 }
 

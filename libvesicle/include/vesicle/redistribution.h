@@ -10,8 +10,8 @@ namespace vesiflow::vesicle {
 
 /// When a mesh calls for redistribution: beyond either limit.
 struct RedistributionLimits {
-  double aspect_ratio = 8;
-  double spectrum_tail = 1e-8;
+  double aspect_ratio = 5;
+  double spectrum_tail = 1e-6;
 
   bool passed_by(const MeshQuality& quality) const {
     return quality.aspect_ratio > aspect_ratio || quality.spectrum_tail > spectrum_tail;
@@ -60,6 +60,8 @@ class MeshRedistribution {
  private:
   double energy() const;
   void find_displacement();
+  void pull_back();
+  bool is_one_to_one(const VectorField& map);
   bool move(const Coefficients& original);
   void project(VectorField& field) const;
   void apply_operator(const VectorField& field, VectorField& result);
@@ -70,7 +72,7 @@ class MeshRedistribution {
   SphericalHarmonics smoothing_;
   PointEvaluation evaluation_;
   VectorField map_, map_theta_, map_phi_, trial_map_, trial_positions_;
-  VectorField displacement_, residual_, direction_, product_, preconditioned_;
+  VectorField displacement_, residual_, direction_, product_, preconditioned_, map_step_, old_positions_;
   mutable Coefficients coefficients_;
 };
 
