@@ -13,7 +13,7 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 template <class Centring>
 void write_field(Hdf5File& file, const std::string& name, const fluid::Field<Centring>& field) {
@@ -60,6 +60,7 @@ void write_vesicle(Hdf5File& file, const std::string& group, const VesicleState&
   write_array(file, group + "/target_areas", m.target_areas.data(), m.target_areas.size());
   write_array(file, group + "/initial_areas", m.initial_areas.data(), m.initial_areas.size());
   file.attribute(group, "initial_volume", m.initial_volume);
+  file.attribute(group, "redistributions", state.redistributions);
   if (!state.integrator_history.empty())
     write_array(file, group + "/integrator_history", state.integrator_history.data(),
                 static_cast<Eigen::Index>(state.integrator_history.size()));
@@ -77,6 +78,7 @@ VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen:
   read_into(file, group + "/target_areas", m.target_areas.data(), size, path);
   read_into(file, group + "/initial_areas", m.initial_areas.data(), size, path);
   m.initial_volume = file.read_number(group, "initial_volume");
+  state.redistributions = file.read_integer(group, "redistributions");
   if (file.exists(group + "/integrator_history")) state.integrator_history = file.read(group + "/integrator_history");
   return state;
 }

@@ -48,6 +48,8 @@ class AdamsBashforth2 final : public MarkerIntegrator {
     previous_dt_ = dt;
   }
 
+  void restart() override { previous_dt_ = 0.0; }
+
  private:
   std::vector<double> velocity_, previous_;
   double previous_dt_ = 0.0;  // of the step that made previous_; 0 before the first

@@ -103,6 +103,10 @@ void describe_step(Plan& plan, const Scene& scene) {
                             : "normal and tangential parts filtered apart",
                         normal, scene.mesh.tangential_degrees),
             "");
+  plan.part(scene.mesh.redistribute == Redistribute::when_needed, "redistribution",
+            fmt::format("along the membrane, when its aspect ratio is above {:g} or the spectrum's tail above {:g}",
+                        scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
+            "mesh.redistribute = \"never\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
             "exact, of the marker velocity", "membrane.volume is not \"projection\"");
   plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection", "exact, of the marker velocity",

@@ -70,6 +70,7 @@ class Run {
 
   void start();
   void rewind_files();
+  void log_redistributions();
   void record(bool last);
   void warn_of_resolution();
   void checkpoint();
@@ -135,6 +136,16 @@ void Run::rewind_files() {
   table_->rewind(step);
   vesicle_snapshots_->rewind(step);
   fluid_snapshots_->rewind(step);
+}
+
+void Run::log_redistributions() {
+  if (options_.quiet) return;
+  for (const auto& [vesicle, report] : simulation_.last_redistributions()) {
+    progress_->finish();
+    spdlog::info("t = {:.6g}: markers of vesicle {} redistributed, aspect ratio {:.3g} -> {:.3g}, spectrum tail {:.1e} -> {:.1e}",
+                 simulation_.time(), vesicle, report.before.aspect_ratio, report.after.aspect_ratio,
+                 report.before.spectrum_tail, report.after.spectrum_tail);
+  }
 }
 
 void Run::checkpoint() {
@@ -204,6 +215,7 @@ RunStatus Run::execute() {
       const PhaseTimer timer(record_.wall_seconds);
       simulation_.step();
       ++record_.steps_taken;
+      log_redistributions();
       progress_->update(simulation_);
       record(simulation_.steps() == last);
     } catch (const SimulationStopped& reason) {

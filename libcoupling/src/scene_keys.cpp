@@ -48,6 +48,7 @@ void apply_preset(Scene& scene) {
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;
   scene.mesh.slip = vesicle::SlipReference::interpolated;
+  scene.mesh.redistribute = Redistribute::never;
 }
 
 void visit_keys(Scene& scene, KeyVisitor& v) {
@@ -84,6 +85,9 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   choice_of(v, "mesh.slip", scene.mesh.slip, {"interpolated", "dealiased"});
   v.integer("mesh.normal_degrees", scene.mesh.normal_degrees, Range::from(0));
   v.integer("mesh.tangential_degrees", scene.mesh.tangential_degrees, Range::from(2));
+  choice_of(v, "mesh.redistribute", scene.mesh.redistribute, {"never", "when_needed"});
+  v.number("mesh.max_aspect_ratio", scene.mesh.max_aspect_ratio, Range::from(1.0));
+  v.number("mesh.max_spectrum_tail", scene.mesh.max_spectrum_tail, Range::from(0.0));
 
   v.number("time.step", scene.time.step, Range::positive());
   v.number("time.end", scene.time.end, Range::positive());

@@ -35,6 +35,10 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
   return parameters;
 }
 
+/// Steps between two looks at the meshes, which change by a few per cent in that time. Where redistribution does not help it
+/// is tried again each time, at the price of about ten steps of a small scene.
+constexpr long redistribution_interval = 16;
+
 const Scene& checked(const Scene& scene) {
   check_scene(scene, "scene");
   return scene;
@@ -74,6 +78,7 @@ struct Simulation::ImmersedVesicle {
   vesicle::VectorField mesh_velocity;  // U~, filtered
   std::unique_ptr<MarkerIntegrator> integrator;
   MarkerVelocity filtered_fluid_velocity;  // what the integrator asks for; made once, so that steps do not allocate
+  std::int64_t redistributions = 0;
   bool is_current = false;
 };
 
@@ -120,7 +125,9 @@ Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, 
       Eigen::Map<vesicle::VectorField>(velocity.data(), v.positions.rows(), 3) = v.mesh_velocity;
     };
   }
-  interpolate_initial_velocity();
+  if (scene_.mesh.redistribute == Redistribute::when_needed) redistribution_.emplace(scene_.mesh.latitudes);
+  last_redistributions_.reserve(vesicles_.size());
+  for (auto& v : vesicles_) interpolate_velocity(*v);
 }
 
 Simulation::~Simulation() = default;
@@ -130,6 +137,7 @@ void Simulation::step() {
     compute_forces();  // Steps 1 and 2: coefficients, geometry, forces, spreading
     advance_fluid();   // Step 3: Navier-Stokes
     move_markers();    // Steps 4 and 5: interpolation, mesh control, markers, target areas
+    redistribute_markers();
   } catch (const std::domain_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
   }
@@ -172,6 +180,29 @@ void Simulation::move_markers() {
   }
 }
 
+void Simulation::redistribute_markers() {
+  last_redistributions_.clear();
+  if (!redistribution_ || steps() % redistribution_interval != 0) return;
+  const vesicle::RedistributionLimits limits{scene_.mesh.max_aspect_ratio, scene_.mesh.max_spectrum_tail};
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    ImmersedVesicle& v = *vesicles_[i];
+    {
+      const PhaseTimer timer(seconds_.membrane);
+      v.update();
+    }
+    const PhaseTimer timer(seconds_.mesh);
+    if (!limits.passed_by(vesicle::mesh_quality(v.membrane.surface()))) continue;
+    const vesicle::RedistributionReport report = v.membrane.redistribute(*redistribution_);
+    if (!report.moved) continue;
+    v.positions = v.membrane.positions();
+    v.integrator->restart();
+    v.is_current = false;
+    interpolate_velocity(v);
+    ++v.redistributions;
+    last_redistributions_.push_back({i, report});
+  }
+}
+
 void Simulation::check_limits(std::size_t i) const {
   const vesicle::Membrane& membrane = vesicles_[i]->membrane;
   if (membrane.parameters().sigma0 == 0.0) return;  // nothing holds local areas, so nothing is promised of them
@@ -183,12 +214,11 @@ void Simulation::check_limits(std::size_t i) const {
         blow_up_advice(scene_));
 }
 
-void Simulation::interpolate_initial_velocity() {
-  for (auto& v : vesicles_) {
-    v->transfer.update(v->positions);
-    v->transfer.interpolate(fluid_.velocity(), v->velocity);
-    v->membrane.filter_velocity(v->velocity, scene_.time.step, v->mesh_velocity);
-  }
+// The velocities at present markers that no step has moved yet.
+void Simulation::interpolate_velocity(ImmersedVesicle& v) {
+  v.transfer.update(v.positions);
+  v.transfer.interpolate(fluid_.velocity(), v.velocity);
+  v.membrane.filter_velocity(v.velocity, scene_.time.step, v.mesh_velocity);
 }
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {
@@ -212,6 +242,10 @@ const vesicle::Membrane& Simulation::membrane(std::size_t i) {
   return vesicles_[i]->membrane;
 }
 
+long Simulation::redistributions(std::size_t i) const {
+  return static_cast<long>(vesicles_.at(i)->redistributions);
+}
+
 const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const {
   return vesicles_.at(i)->velocity;
 }
@@ -230,7 +264,7 @@ SimulationState Simulation::state() const {
       fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}};
   for (const auto& v : vesicles_) {
     const auto history = v->integrator->history();
-    state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}});
+    state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
   }
   return state;
 }
@@ -247,8 +281,12 @@ void Simulation::restore(const SimulationState& state) {
     v.is_current = false;
     if (!state.vesicles[i].integrator_history.empty())
       v.integrator->restore_history(scene_.time.step, state.vesicles[i].integrator_history);
+    else
+      v.integrator->restart();
+    v.redistributions = state.vesicles[i].redistributions;
+    interpolate_velocity(v);
   }
-  interpolate_initial_velocity();
+  last_redistributions_.clear();
 }
 
 }  // namespace vesiflow::coupling

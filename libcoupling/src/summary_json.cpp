@@ -25,7 +25,7 @@ Json parameters_of(const Scene& scene) {
   return all;
 }
 
-Json vesicle_of(const vesicle::Diagnostics& diagnostics) {
+Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions) {
   Json entry;
   visit_record(diagnostics, [&](std::string_view name, const double* values, int length) {
     if (length == 1) {
@@ -34,6 +34,7 @@ Json vesicle_of(const vesicle::Diagnostics& diagnostics) {
       for (int i = 0; i < length; ++i) entry[std::string(name)].push_back(finite_or_null(values[i]));
     }
   });
+  entry["redistributions"] = redistributions;
   return entry;
 }
 
@@ -53,7 +54,8 @@ Json phases_of(const PhaseSeconds& s, double output_seconds) {
 Json vesicles_of(Simulation& simulation) {
   Json list = Json::array();
   try {
-    for (const auto& diagnostics : simulation.measure()) list.push_back(vesicle_of(diagnostics));
+    for (const auto& diagnostics : simulation.measure())
+      list.push_back(vesicle_of(diagnostics, simulation.redistributions(list.size())));
   } catch (const std::exception&) {
     for (std::size_t i = 0; i < simulation.vesicle_count(); ++i) list.push_back(nullptr);
   }

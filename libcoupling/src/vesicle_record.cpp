@@ -28,6 +28,8 @@ void visit_record(const vesicle::Diagnostics& d,
   number("spectrum_tail", d.spectrum_tail);
   number("unresolved_bending", d.resolution.unresolved);
   number("needed_latitudes", d.resolution.needed_latitudes);
+  number("mesh_aspect_ratio", d.mesh_aspect_ratio);
+  number("mesh_area_ratio", d.mesh_area_ratio);
 }
 
 }  // namespace vesiflow::coupling

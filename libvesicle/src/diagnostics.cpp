@@ -8,6 +8,7 @@
 
 #include "check.h"
 #include "vesicle/bending.h"
+#include "vesicle/mesh_quality.h"
 #include "vesicle/shapes.h"
 
 namespace vesiflow::vesicle {
@@ -123,8 +124,11 @@ Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity
   d.elastic_energy = membrane.elastic_energy();
   d.tension_min = membrane.tension().minCoeff();
   d.tension_max = membrane.tension().maxCoeff();
-  d.spectrum_tail = spectrum_tail(surface);
   d.resolution = resolution(surface);
+  const MeshQuality mesh = mesh_quality(surface);
+  d.spectrum_tail = mesh.spectrum_tail;
+  d.mesh_aspect_ratio = mesh.aspect_ratio;
+  d.mesh_area_ratio = mesh.area_ratio;
   return d;
 }
 

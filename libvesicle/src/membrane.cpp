@@ -98,6 +98,22 @@ void Membrane::advance(const VectorField& new_positions, const VectorField& velo
   positions_ = new_positions;
 }
 
+RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) {
+  update_geometry();
+  const RedistributionReport report = redistribution.redistribute(surface_);
+  if (!report.moved) return report;
+  for (ScalarField* areas : {&target_areas_, &initial_areas_}) *areas = (surface_.area_weight() / *areas).log();
+  redistribution.carry(target_areas_);
+  redistribution.carry(initial_areas_);
+  positions_ = redistribution.positions();
+  update_geometry();
+  for (ScalarField* areas : {&target_areas_, &initial_areas_}) {
+    *areas = surface_.area_weight() * (-*areas).exp();
+    *areas *= initial_area_ / areas->sum();
+  }
+  return report;
+}
+
 double Membrane::energy() const {
   return elastic_energy() + (bending_ ? bending_->energy(surface_) : 0);
 }

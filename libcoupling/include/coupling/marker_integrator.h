@@ -23,6 +23,9 @@ class MarkerIntegrator {
   /// What a continued run needs besides the state; empty where there is nothing.
   virtual std::span<const double> history() const { return {}; }
   virtual void restore_history(double /*dt*/, std::span<const double> /*history*/) {}
+
+  /// Forgets the history: it belongs to other markers. The next step starts afresh.
+  virtual void restart() {}
 };
 
 /// Integrators a scene can name in `time.markers`.

@@ -10,6 +10,7 @@
 #include "vesicle/laplace_beltrami.h"
 #include "vesicle/membrane.h"
 #include "vesicle/mesh_control.h"
+#include "vesicle/redistribution.h"
 #include "vesicle/shapes.h"
 
 namespace vesiflow::coupling {
@@ -18,6 +19,7 @@ enum class Preset { standard, paper };
 enum class FlowType { rest, shear, custom };
 enum class FlowStart { flow, rest };
 enum class Shape { sphere, prolate, oblate, ellipsoid, biconcave, harmonics, coefficients, mesh };
+enum class Redistribute { never, when_needed };
 
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
 struct VesicleScene {
@@ -79,6 +81,9 @@ struct Scene {
     vesicle::SlipReference slip = vesicle::SlipReference::dealiased;
     int normal_degrees = 0;       ///< degrees kept in the velocity that shapes; 0: two thirds
     int tangential_degrees = 15;  ///< degrees kept in the velocity along the membrane
+    Redistribute redistribute = Redistribute::when_needed;
+    double max_aspect_ratio = vesicle::RedistributionLimits{}.aspect_ratio;
+    double max_spectrum_tail = vesicle::RedistributionLimits{}.spectrum_tail;
   } mesh;
   struct Time {
     double step = 1.0 / 192.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,14 +22,21 @@ struct PhaseSeconds {
   double fluid_momentum = 0.0;    ///< three velocity solves
   double fluid_projection = 0.0;  ///< pressure solve and correction
   double interpolate = 0.0;
-  double mesh = 0.0;  ///< velocity filter, move, target areas
+  double mesh = 0.0;  ///< velocity filter, move, target areas, redistribution
   double diagnostics = 0.0;
+};
+
+/// A redistribution of the markers of one vesicle at the end of a step.
+struct Redistribution {
+  std::size_t vesicle = 0;
+  vesicle::RedistributionReport report;
 };
 
 /// Everything a run needs to go on as if it had not been interrupted.
 struct VesicleState {
   vesicle::MembraneState membrane;
   std::vector<double> integrator_history;
+  std::int64_t redistributions = 0;
 };
 struct SimulationState {
   fluid::FaceVector velocity, previous_velocity;
@@ -50,13 +58,19 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One time step of the scene's length (Steps 1 to 5 of the paper).
+  /// One time step of the scene's length (Steps 1 to 5 of the paper). Every sixteenth step ends with a look at the meshes and,
+  /// where one has passed a limit of the scene, its redistribution along the membrane.
   /// \throws SimulationStopped when the state is not finite, a limit is passed or a marker meets a wall
   void step();
 
   double time() const { return fluid_.time(); }
   long steps() const { return static_cast<long>(fluid_.steps()); }
   const Scene& scene() const { return scene_; }
+
+  /// Redistributions that the last step ended with.
+  std::span<const Redistribution> last_redistributions() const { return last_redistributions_; }
+  /// Their number since the start of the simulation.
+  long redistributions(std::size_t vesicle) const;
 
   /// Measures of every vesicle at the present time.
   std::vector<vesicle::Diagnostics> measure();
@@ -83,12 +97,15 @@ class Simulation {
   void compute_forces();
   void advance_fluid();
   void move_markers();
+  void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
-  void interpolate_initial_velocity();
+  void interpolate_velocity(ImmersedVesicle& vesicle);
 
   Scene scene_;
   fluid::NavierStokes fluid_;
   std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
+  std::optional<vesicle::MeshRedistribution> redistribution_;
+  std::vector<Redistribution> last_redistributions_;
   PhaseSeconds seconds_;
 };
 

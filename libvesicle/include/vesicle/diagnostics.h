@@ -69,6 +69,8 @@ struct Diagnostics {
   double tension_max = 0;
   double spectrum_tail = 0;  ///< see spectrum_tail()
   Resolution resolution;     ///< how well the mesh resolves the bending force
+  double mesh_aspect_ratio = 1;  ///< see MeshQuality
+  double mesh_area_ratio = 1;
 };
 
 /// Measures a membrane at its last geometry. marker_velocity: the interpolated U, for Eq. (34);

@@ -6,6 +6,7 @@
 #include "vesicle/bending.h"
 #include "vesicle/conservation.h"
 #include "vesicle/mesh_control.h"
+#include "vesicle/redistribution.h"
 #include "vesicle/surface.h"
 #include "vesicle/tension.h"
 #include "vesicle/types.h"
@@ -80,6 +81,12 @@ class Membrane {
   /// update_geometry(). velocity: interpolated U; filtered: the velocity U~ that moved the markers, as
   /// averaged over the step by the integrator.
   void advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered, double dt);
+
+  /// Moves the markers along the membrane to a better mesh, if there is one, with the membrane's own fields: the strains
+  /// ln(dA/dA0) and ln(dA/dA(0)) stay with the material, so tension, max_local_area_error and max_label_area_error mean what they
+  /// did before; both target and initial areas keep their totals. A "label" is then a material point and no longer a marker
+  /// number. Updates the geometry before and after. `redistribution` must have the same number of latitudes.
+  RedistributionReport redistribute(MeshRedistribution& redistribution);
 
   const MembraneParameters& parameters() const { return parameters_; }
   const Surface& surface() const { return surface_; }

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "vesicle/mesh_quality.h"
+#include "vesicle/point_evaluation.h"
+#include "vesicle/spherical_harmonics.h"
+#include "vesicle/surface.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::vesicle {
+
+/// When a mesh calls for redistribution: beyond either limit.
+struct RedistributionLimits {
+  double aspect_ratio = 5;
+  double spectrum_tail = 1e-6;
+
+  bool passed_by(const MeshQuality& quality) const {
+    return quality.aspect_ratio > aspect_ratio || quality.spectrum_tail > spectrum_tail;
+  }
+};
+
+/// What redistribute() did.
+struct RedistributionReport {
+  bool moved = false;          ///< whether there is a new mesh
+  MeshQuality before, after;   ///< after = before unless moved
+  double energy_before = 0;    ///< E below
+  double energy_after = 0;
+  int iterations = 0;          ///< Gauss-Newton steps
+};
+
+/// Moves the markers of a mesh along its surface, leaving the shape alone: the surface X(x), x on the unit sphere, becomes
+/// X(y(x)) with y a smooth one-to-one map of the sphere chosen to minimise
+///   E = 1/2 sum_{n,m} a_n |X_n^m|^2,  a_n = (n - 1) n (n + 1) (n + 2) = (Lap + 2) Lap,
+/// which is zero for a linear image of the sphere, the usual mesh of an ellipsoid, and weighs high degrees: the map under which
+/// the shape needs the fewest degrees. (Rahimian, Veerapaneni, Zorin & Biros, J. Comput. Phys. 298 (2015) 766, move markers by
+/// pseudo-time steps down such an energy; here by Gauss-Newton steps.)
+///
+/// One step finds the tangential displacement w that minimises E to second order,
+///   P (A + mu) P w = -P A X,  A = diag(a_n), P = I - n n^T,
+/// by a few preconditioned conjugate gradients, pulls it back to the sphere and moves y, with step halving until E falls and the
+/// Jacobian of y stays positive. Markers are always the original expansion evaluated at y (PointEvaluation), so they
+/// lie on the original surface to round-off; what changes the shape is only the truncation of X o y to N degrees.
+class MeshRedistribution {
+ public:
+  /// @throws std::invalid_argument unless latitudes >= 4.
+  explicit MeshRedistribution(int latitudes);
+
+  /// Looks for a better mesh of the surface, which must have the same number of latitudes. There is none (moved = false)
+  /// if E cannot be lowered by a tenth.
+  RedistributionReport redistribute(const Surface& surface);
+
+  /// New markers, on the surface given to the last redistribute(); that surface's own if it did not move.
+  const VectorField& positions() const { return surface_.positions(); }
+
+  /// The map y, unit vectors at the nodes.
+  const VectorField& map() const { return map_; }
+
+  /// Carries a smooth material field given at the old markers, shape (markers), to the new ones: field(y(x)).
+  void carry(ScalarField& field) const;
+
+ private:
+  double energy() const;
+  void find_displacement();
+  void pull_back();
+  bool is_one_to_one(const VectorField& map);
+  bool move(const Coefficients& original);
+  void project(VectorField& field) const;
+  void apply_operator(const VectorField& field, VectorField& result);
+  void weigh(const VectorField& field, bool inverse, VectorField& result);
+  double inner(const VectorField& a, const VectorField& b) const;
+
+  Surface surface_;  // X o y
+  SphericalHarmonics smoothing_;
+  PointEvaluation evaluation_;
+  VectorField map_, map_theta_, map_phi_, trial_map_, trial_positions_;
+  VectorField displacement_, residual_, direction_, product_, preconditioned_, map_step_, old_positions_;
+  mutable Coefficients coefficients_;
+};
+
+}  // namespace vesiflow::vesicle
