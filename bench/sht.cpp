@@ -88,7 +88,7 @@ Time fft(int latitudes, int longitudes, int repetitions) {
 /// The sums over degrees and over latitudes alone: GF/s, counting every function at every northern latitude whether or
 /// not the table leaves it out.
 double legendre_rate(LegendreSum sum, int latitudes, int repetitions) {
-  const auto table = shared_legendre_table(LegendreKind::value, sum, latitudes, latitudes);
+  const auto table = shared_legendre_table(LegendreKind::value, sum, latitudes, latitudes, 2 * latitudes);
   constexpr int width = 2 * fields;
   const int half = (latitudes + 1) / 2;
   const std::ptrdiff_t stride = padded_rows(half);

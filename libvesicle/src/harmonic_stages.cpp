@@ -21,7 +21,11 @@ double south_sign(LegendreKind kind) {
 HarmonicStages::HarmonicStages(int degrees, const SphereGrid& grid)
     : degrees_(degrees),
       transform_(grid.latitudes(), grid.longitudes()),
-      fold_weight_(allocate_aligned<double>(half_stride())) {}
+      fold_weight_(allocate_aligned<double>(half_stride())) {
+  // Of a pair of rings each counts half in sum and difference, and the equator is paired with itself.
+  const int latitudes = grid.latitudes();
+  for (int j = 0; j < transform_.pairs(); ++j) fold_weight_[j] = 2 * j + 1 == latitudes ? 0.25 : 0.5;
+}
 
 void HarmonicStages::reserve(int fields, int derivatives) {
   transform_.reserve(fields * derivatives);
@@ -37,7 +41,7 @@ void HarmonicStages::reserve(int fields, int derivatives) {
 
 void HarmonicStages::require(LegendreKind kind, LegendreSum sum) {
   auto& table = tables_[static_cast<int>(kind)][static_cast<int>(sum)];
-  if (!table) table = shared_legendre_table(kind, sum, degrees_, transform_.latitudes());
+  if (!table) table = shared_legendre_table(kind, sum, degrees_, transform_.latitudes(), transform_.longitudes());
 }
 
 int HarmonicStages::threads(int fields) const {
@@ -121,17 +125,14 @@ void HarmonicStages::sum_degrees(const Coefficients& coefficients, const Legendr
   }
 }
 
-void HarmonicStages::project(std::span<const NodalFields<const double>> all, const ScalarField& weight,
+void HarmonicStages::project(std::span<const NodalFields<const double>> all, LegendreSum sum,
                              Coefficients& coefficients) {
-  // Of a pair of rings each counts half in sum and difference, and the equator is paired with itself.
-  const int latitudes = static_cast<int>(weight.size());
-  for (int j = 0; j < transform_.pairs(); ++j) fold_weight_[j] = (2 * j + 1 == latitudes ? 0.25 : 0.5) * weight[j];
   const int fields = coefficients.fields();
   for_each_kind(all, [&](std::span<const NodalFields<const double>> group) {
     const int derivatives = static_cast<int>(group.size());
     const bool add = group.data() != all.data();
     reserve(fields, derivatives);
-    require(group[0].kind, LegendreSum::over_latitudes);
+    require(group[0].kind, sum);
     const auto transform_rings = [&](int thread, int threads) {
       const int blocks = transform_.blocks();
       for (int task = thread; task < derivatives * fields * blocks; task += threads) {
@@ -151,7 +152,7 @@ void HarmonicStages::project(std::span<const NodalFields<const double>> all, con
                            {m, given.longitude_derivative, south_sign(given.kind)}, column >= fields,
                            half_sums(work, 0, field), half_sums(work, 1, field));
         }
-        const LegendreTable& functions = table(group[0].kind, LegendreSum::over_latitudes);
+        const LegendreTable& functions = table(group[0].kind, sum);
         if (add)
           sum_latitudes<true>(functions, m, work, coefficients);
         else

@@ -38,10 +38,9 @@ class HarmonicStages {
   /// Derivatives of the expansion at the nodes; coefficients of at least these degrees.
   void evaluate(const Coefficients& coefficients, std::span<const NodalFields<double>> results);
 
-  /// coefficients = sum over the fields of the adjoint of evaluating them, applied to the nodal values times
-  /// `weight` per latitude; the coefficients have the shape of the result.
-  void project(std::span<const NodalFields<const double>> fields, const ScalarField& weight,
-               Coefficients& coefficients);
+  /// coefficients = sum over the fields of the adjoint of evaluating them, applied to the nodal values as they are
+  /// (LegendreSum::over_latitudes) or with their quadrature weights (quadrature); the coefficients have the shape of the result.
+  void project(std::span<const NodalFields<const double>> fields, LegendreSum sum, Coefficients& coefficients);
 
  private:
   using Complex = LongitudeTransform::Complex;
@@ -73,7 +72,7 @@ class HarmonicStages {
 
   int degrees_;
   LongitudeTransform transform_;
-  std::array<std::array<std::shared_ptr<const LegendreTable>, 2>, 3> tables_;
+  std::array<std::array<std::shared_ptr<const LegendreTable>, 3>, 3> tables_;  ///< [kind][sum]
   AlignedArray<double> fold_weight_;
   int fields_ = 0;
   std::vector<Workspace> workspaces_;  ///< one per thread

@@ -100,7 +100,8 @@ std::vector<int> find_first_latitudes(Legendre& legendre, const GaussLegendre& r
 
 }  // namespace
 
-LegendreTable::LegendreTable(LegendreKind kind, LegendreSum sum, int degrees, int latitudes) : matrices_(degrees) {
+LegendreTable::LegendreTable(LegendreKind kind, LegendreSum sum, int degrees, int latitudes, int longitudes)
+    : matrices_(degrees) {
   const GaussLegendre rule = gauss_legendre(latitudes);
   const int half = (latitudes + 1) / 2;
   Legendre legendre(kind, degrees);
@@ -123,26 +124,29 @@ LegendreTable::LegendreTable(LegendreKind kind, LegendreSum sum, int degrees, in
     }
   for (int j = 0; j < half; ++j) {
     const Triangle& p = legendre.at(rule.colatitude[j]);
+    const long double weight =
+        sum == LegendreSum::quadrature ? rule.weight[j] * 2 * std::numbers::pi_v<long double> / longitudes : 1;
     for (int n = 0; n < degrees; ++n)
       for (int m = 0; m <= n; ++m) {
         if (j < first_latitudes_[m]) continue;
         PanelMatrix& matrix = matrices_[m][(n - m) % 2];
         const int row = (n - m) / 2;
-        (to_latitudes ? matrix(j, row) : matrix(row, j - first_latitudes_[m])) = flushed(p(n, m));
+        (to_latitudes ? matrix(j, row) : matrix(row, j - first_latitudes_[m])) = flushed(weight * p(n, m));
       }
   }
 }
 
 std::shared_ptr<const LegendreTable> shared_legendre_table(LegendreKind kind, LegendreSum sum, int degrees,
-                                                           int latitudes) {
-  using Key = std::tuple<LegendreKind, LegendreSum, int, int>;
+                                                           int latitudes, int longitudes) {
+  using Key = std::tuple<LegendreKind, LegendreSum, int, int, int>;
   static std::mutex mutex;
   static std::map<Key, std::weak_ptr<const LegendreTable>> tables;
   const std::lock_guard lock(mutex);
   std::erase_if(tables, [](const auto& entry) { return entry.second.expired(); });
-  std::weak_ptr<const LegendreTable>& entry = tables[{kind, sum, degrees, latitudes}];
+  const int key_longitudes = sum == LegendreSum::quadrature ? longitudes : 0;
+  std::weak_ptr<const LegendreTable>& entry = tables[{kind, sum, degrees, latitudes, key_longitudes}];
   std::shared_ptr<const LegendreTable> table = entry.lock();
-  if (!table) entry = table = std::make_shared<const LegendreTable>(kind, sum, degrees, latitudes);
+  if (!table) entry = table = std::make_shared<const LegendreTable>(kind, sum, degrees, latitudes, longitudes);
   return table;
 }
 

@@ -11,8 +11,10 @@ namespace vesiflow::vesicle {
 /// What a Legendre table holds: P_n^m(cos theta_j) or its first or second derivative in theta.
 enum class LegendreKind { value = 0, first = 1, second = 2 };
 
-/// Which way a table is packed: sums over degrees give values at latitudes, sums over latitudes give degrees.
-enum class LegendreSum { over_degrees = 0, over_latitudes = 1 };
+/// Which way a table is packed: sums over degrees give values at latitudes, sums over latitudes give degrees. Quadrature is a
+/// sum over latitudes with the functions times w_j 2 pi/N_phi. Weights of their own, rounded once for all functions of a
+/// latitude, would leave errors of whole rings: seven times the error of the Laplacian of H at 128 latitudes.
+enum class LegendreSum { over_degrees = 0, over_latitudes = 1, quadrature = 2 };
 
 /// Number of degrees n = m + parity, m + parity + 2, ... below `degrees`.
 constexpr int degree_count(int degrees, int m, int parity) {
@@ -29,7 +31,8 @@ constexpr int degree_count(int degrees, int m, int parity) {
 /// breed denormal numbers, which are a hundred times slower.
 class LegendreTable {
  public:
-  LegendreTable(LegendreKind kind, LegendreSum sum, int degrees, int latitudes);
+  /// The longitudes matter for quadrature only.
+  LegendreTable(LegendreKind kind, LegendreSum sum, int degrees, int latitudes, int longitudes);
 
   /// Rows and columns: northern latitudes and degrees of order m for sums over degrees, else the reverse; the first
   /// latitude is first_latitude(m).
@@ -45,6 +48,6 @@ class LegendreTable {
 
 /// The table of that description, made unless somebody has it. Safe to call from several threads.
 std::shared_ptr<const LegendreTable> shared_legendre_table(LegendreKind kind, LegendreSum sum, int degrees,
-                                                           int latitudes);
+                                                           int latitudes, int longitudes);
 
 }  // namespace vesiflow::vesicle

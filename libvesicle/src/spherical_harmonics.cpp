@@ -62,8 +62,7 @@ class SphericalHarmonics::Implementation {
       : degrees_(checked_degrees(degrees)),
         grid_(grid),
         stages_(degrees, grid),
-        analysis_weight_(grid.weight() * grid.longitude_spacing()),
-        no_weight_(ScalarField::Ones(grid.latitudes())) {
+        analysis_weight_(grid.weight() * grid.longitude_spacing()) {
     check_argument(max_fields >= 1, "max_fields", max_fields, ">= 1");
     stages_.reserve(max_fields, 1);
   }
@@ -81,7 +80,7 @@ class SphericalHarmonics::Implementation {
       if (uses.derivatives) stages_.require(LegendreKind::second, sum);
     };
     if (uses.synthesis || gradient || (uses.analysis && uses.adjoints)) require(LegendreSum::over_degrees);
-    if (uses.analysis) stages_.require(LegendreKind::value, LegendreSum::over_latitudes);
+    if (uses.analysis) stages_.require(LegendreKind::value, LegendreSum::quadrature);
     if (uses.adjoints && (uses.synthesis || gradient)) require(LegendreSum::over_latitudes);
   }
 
@@ -91,7 +90,7 @@ class SphericalHarmonics::Implementation {
 
   void analysis(const Input& values, Coefficients& coefficients) {
     check_analysis();
-    project({{Derivative::value, values}}, analysis_weight_, coefficients);
+    project({{Derivative::value, values}}, LegendreSum::quadrature, coefficients);
   }
 
   void analysis_adjoint(const Coefficients& coefficients, Output& values) {
@@ -121,7 +120,7 @@ class SphericalHarmonics::Implementation {
   };
 
   void project_adjoint(std::initializer_list<Given> given, Coefficients& coefficients) {
-    project(given, no_weight_, coefficients);
+    project(given, LegendreSum::over_latitudes, coefficients);
   }
 
  private:
@@ -130,7 +129,7 @@ class SphericalHarmonics::Implementation {
     return degrees;
   }
 
-  void project(std::initializer_list<Given> given, const ScalarField& weight, Coefficients& coefficients) {
+  void project(std::initializer_list<Given> given, LegendreSum sum, Coefficients& coefficients) {
     FieldList<const double> fields;
     const Eigen::Index columns = given.begin()->values.cols();
     for (const Given& g : given) {
@@ -139,13 +138,13 @@ class SphericalHarmonics::Implementation {
       fields.add(g.derivative, g.values.data(), g.values.outerStride());
     }
     coefficients.resize(degrees_, static_cast<int>(columns));
-    stages_.project(fields.fields(), weight, coefficients);
+    stages_.project(fields.fields(), sum, coefficients);
   }
 
   int degrees_;
   SphereGrid grid_;
   HarmonicStages stages_;
-  ScalarField analysis_weight_, no_weight_;
+  ScalarField analysis_weight_;
 };
 
 SphericalHarmonics::SphericalHarmonics(int degrees, const SphereGrid& grid, int max_fields)
