@@ -151,6 +151,22 @@ TEST(MeshRedistribution, ASecondOneHardlyMoves) {
   EXPECT_TRUE((redistribution.positions() == surface.positions()).all());
 }
 
+/// Fewer degrees: the new positions have them and no more, and the report says how far off the surface that is.
+TEST(MeshRedistribution, KeepsTheDegreesAskedFor) {
+  Surface before(latitudes), after(latitudes);
+  before.update(ellipsoid_under(before.grid(), wound));
+  MeshRedistribution all(latitudes), few(latitudes, 22);
+  ASSERT_TRUE(all.redistribute(before).moved);
+  const RedistributionReport report = few.redistribute(before);
+  ASSERT_TRUE(report.moved);
+  after.update(few.positions());
+  const Coefficients& c = after.position_coefficients();
+  EXPECT_LT(c.energy(22, latitudes), 1e-28 * c.energy(0, 22));
+  const double distance = std::sqrt((few.positions() - all.positions()).square().rowwise().sum().maxCoeff());
+  EXPECT_DOUBLE_EQ(report.truncation, distance);
+  EXPECT_LT(off_ellipsoid(few.positions()), 4 * distance);  // 2 distance / (shortest semi-axis 0.7)
+}
+
 TEST(MeshRedistribution, TheMapIsOneToOne) {
   Surface surface(latitudes), map(latitudes);
   surface.update(ellipsoid_under(surface.grid(), wound));
@@ -166,6 +182,7 @@ TEST(MeshRedistribution, RefusesAnotherMesh) {
   surface.update(sphere(surface.grid()));
   MeshRedistribution redistribution(latitudes + 1);
   EXPECT_THROW(redistribution.redistribute(surface), std::invalid_argument);
+  EXPECT_THROW(MeshRedistribution(latitudes, latitudes + 1), std::invalid_argument);
   ScalarField field(3);
   EXPECT_THROW(redistribution.carry(field), std::invalid_argument);
 }
