@@ -123,7 +123,8 @@ Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, 
       Eigen::Map<vesicle::VectorField>(velocity.data(), v.positions.rows(), 3) = v.mesh_velocity;
     };
   }
-  if (scene_.mesh.redistribute == Redistribute::when_needed) redistribution_.emplace(scene_.mesh.latitudes, moving_degrees(scene_));
+  if (scene_.mesh.redistribute == Redistribute::when_needed)
+    redistribution_.emplace(scene_.mesh.latitudes, moving_degrees(scene_));
   last_redistributions_.reserve(vesicles_.size());
   for (auto& v : vesicles_) interpolate_velocity(*v);
 }

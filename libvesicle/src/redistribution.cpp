@@ -14,7 +14,7 @@ namespace {
 
 constexpr int max_iterations = 30;
 constexpr int conjugate_gradient_steps = 12;
-constexpr double least_gain = 0.02;   // of a Gauss-Newton step, as a fraction of E; less is not worth another
+constexpr double least_gain = 0.02;  // of a Gauss-Newton step, as a fraction of E; less is not worth another
 constexpr double least_total_gain = 0.1;
 constexpr double longest_step = 0.3;  // of y in one step, radians
 constexpr int halvings = 6;
@@ -42,9 +42,7 @@ void normalise(VectorField& field) {
 }  // namespace
 
 MeshRedistribution::MeshRedistribution(int latitudes, int kept_degrees)
-    : surface_(latitudes),
-      smoothing_(two_thirds_degrees(latitudes), surface_.grid()),
-      evaluation_(latitudes) {
+    : surface_(latitudes), smoothing_(two_thirds_degrees(latitudes), surface_.grid()), evaluation_(latitudes) {
   check_argument(kept_degrees >= 0 && kept_degrees <= latitudes, "kept_degrees", kept_degrees, "in [0, latitudes]");
   if (kept_degrees > 0 && kept_degrees < latitudes) truncation_.emplace(kept_degrees, surface_.grid());
   const Eigen::Index markers = surface_.grid().size();
@@ -193,8 +191,7 @@ double MeshRedistribution::truncate() {
   trial_positions_ = surface_.positions();
   truncation_->analysis(trial_positions_, coefficients_);
   truncation_->synthesis(coefficients_, trial_positions_);
-  const double distance =
-      std::sqrt((trial_positions_ - surface_.positions()).square().rowwise().sum().maxCoeff());
+  const double distance = std::sqrt((trial_positions_ - surface_.positions()).square().rowwise().sum().maxCoeff());
   surface_.update(trial_positions_);
   return distance;
 }

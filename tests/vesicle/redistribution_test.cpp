@@ -98,7 +98,8 @@ TEST_P(MeshRedistributionOf, AnEllipsoidKeepsItsShapeAndGainsItsBestMesh) {
   after.update(redistribution.positions());
 
   const MeshQuality ideal = mesh_quality(best);
-  EXPECT_GT(std::max(report.before.aspect_ratio / ideal.aspect_ratio, report.before.area_ratio / ideal.area_ratio), 1.3);
+  EXPECT_GT(std::max(report.before.aspect_ratio / ideal.aspect_ratio, report.before.area_ratio / ideal.area_ratio),
+            1.3);
   EXPECT_NEAR(report.after.aspect_ratio, ideal.aspect_ratio, 0.01 * ideal.aspect_ratio);
   EXPECT_NEAR(report.after.area_ratio, ideal.area_ratio, 0.02 * ideal.area_ratio);
   EXPECT_LT(report.energy_after, 1e-6 * report.energy_before);
@@ -122,7 +123,8 @@ TEST_P(MeshRedistributionOf, FieldsStayWithTheMaterial) {
   ASSERT_TRUE(redistribution.redistribute(before).moved);
   ScalarField field = at(before.positions());
   redistribution.carry(field);
-  EXPECT_LT((field - at(redistribution.positions())).abs().maxCoeff(), 1e-7);  // truncation of the field on the old mesh
+  EXPECT_LT((field - at(redistribution.positions())).abs().maxCoeff(),
+            1e-7);  // truncation of the field on the old mesh
 }
 
 TEST(MeshRedistribution, LeavesAGoodMeshAlone) {
@@ -201,8 +203,8 @@ TEST(Membrane, RedistributionKeepsStrainsTotalsAndEnergy) {
   MembraneState state = membrane.state();
   state.target_areas = membrane.surface().area_weight() * (-strain(state.positions)).exp();
   state.target_areas *= state.initial_areas.sum() / state.target_areas.sum();
-  const double mean = std::log(state.initial_areas.sum() / (membrane.surface().area_weight() *
-                                                            (-strain(state.positions)).exp()).sum());
+  const double mean =
+      std::log(state.initial_areas.sum() / (membrane.surface().area_weight() * (-strain(state.positions)).exp()).sum());
   membrane.restore(state);
   membrane.compute_force();
   const double energy = membrane.energy();

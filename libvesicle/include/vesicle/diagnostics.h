@@ -54,7 +54,7 @@ struct Diagnostics {
   double bending_energy = 0;        ///< (1/2) int H^2 dA, without 1/Ca
   double tension_min = 0;
   double tension_max = 0;
-  double spectrum_tail = 0;  ///< see spectrum_tail()
+  double spectrum_tail = 0;      ///< see spectrum_tail()
   double mesh_aspect_ratio = 1;  ///< see MeshQuality
   double mesh_area_ratio = 1;
 };

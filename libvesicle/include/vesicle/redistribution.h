@@ -22,12 +22,12 @@ struct RedistributionLimits {
 
 /// What redistribute() did.
 struct RedistributionReport {
-  bool moved = false;          ///< whether there is a new mesh
-  MeshQuality before, after;   ///< after = before unless moved
-  double energy_before = 0;    ///< E below
+  bool moved = false;         ///< whether there is a new mesh
+  MeshQuality before, after;  ///< after = before unless moved
+  double energy_before = 0;   ///< E below
   double energy_after = 0;
-  int iterations = 0;          ///< Gauss-Newton steps
-  double truncation = 0;       ///< greatest distance by which keeping fewer degrees took a marker off the old surface
+  int iterations = 0;     ///< Gauss-Newton steps
+  double truncation = 0;  ///< greatest distance by which keeping fewer degrees took a marker off the old surface
 };
 
 /// Moves the markers of a mesh along its surface, leaving the shape alone: the surface X(x), x on the unit sphere, becomes
