@@ -142,9 +142,11 @@ void Run::log_redistributions() {
   if (options_.quiet) return;
   for (const auto& [vesicle, report] : simulation_.last_redistributions()) {
     progress_->finish();
-    spdlog::info("t = {:.6g}: markers of vesicle {} redistributed, aspect ratio {:.3g} -> {:.3g}, spectrum tail {:.1e} -> {:.1e}",
-                 simulation_.time(), vesicle, report.before.aspect_ratio, report.after.aspect_ratio,
-                 report.before.spectrum_tail, report.after.spectrum_tail);
+    spdlog::info(
+        "t = {:.6g}: markers of vesicle {} redistributed, aspect ratio {:.3g} -> {:.3g}, spectrum tail {:.1e} -> "
+        "{:.1e}, off the old surface by at most {:.1e}",
+        simulation_.time(), vesicle, report.before.aspect_ratio, report.after.aspect_ratio, report.before.spectrum_tail,
+        report.after.spectrum_tail, report.truncation);
   }
 }
 

@@ -35,6 +35,12 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
   return parameters;
 }
 
+/// Degrees of the velocity that shapes the membranes.
+int moving_degrees(const Scene& scene) {
+  const int degrees = scene.mesh.normal_degrees;
+  return degrees > 0 ? degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
+}
+
 /// Steps between two looks at the meshes, which change by a few per cent in that time. Where redistribution does not help it
 /// is tried again each time, at the price of about ten steps of a small scene.
 constexpr long redistribution_interval = 16;
@@ -125,7 +131,8 @@ Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, 
       Eigen::Map<vesicle::VectorField>(velocity.data(), v.positions.rows(), 3) = v.mesh_velocity;
     };
   }
-  if (scene_.mesh.redistribute == Redistribute::when_needed) redistribution_.emplace(scene_.mesh.latitudes);
+  if (scene_.mesh.redistribute == Redistribute::when_needed)
+    redistribution_.emplace(scene_.mesh.latitudes, moving_degrees(scene_));
   last_redistributions_.reserve(vesicles_.size());
   for (auto& v : vesicles_) interpolate_velocity(*v);
 }

@@ -111,6 +111,7 @@ RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) 
     *areas = surface_.area_weight() * (-*areas).exp();
     *areas *= initial_area_ / areas->sum();
   }
+  initial_area_ = initial_areas_.sum();  // to the last bit, as restore() takes it
   return report;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int max_iterations = 30;
 constexpr int conjugate_gradient_steps = 12;
-constexpr double least_gain = 0.02;   // of a Gauss-Newton step, as a fraction of E; less is not worth another
+constexpr double least_gain = 0.02;  // of a Gauss-Newton step, as a fraction of E; less is not worth another
 constexpr double least_total_gain = 0.1;
 constexpr double longest_step = 0.3;  // of y in one step, radians
 constexpr int halvings = 6;
@@ -41,10 +41,10 @@ void normalise(VectorField& field) {
 
 }  // namespace
 
-MeshRedistribution::MeshRedistribution(int latitudes)
-    : surface_(latitudes),
-      smoothing_(two_thirds_degrees(latitudes), surface_.grid()),
-      evaluation_(latitudes) {
+MeshRedistribution::MeshRedistribution(int latitudes, int kept_degrees)
+    : surface_(latitudes), smoothing_(two_thirds_degrees(latitudes), surface_.grid()), evaluation_(latitudes) {
+  check_argument(kept_degrees >= 0 && kept_degrees <= latitudes, "kept_degrees", kept_degrees, "in [0, latitudes]");
+  if (kept_degrees > 0 && kept_degrees < latitudes) truncation_.emplace(kept_degrees, surface_.grid());
   const Eigen::Index markers = surface_.grid().size();
   for (VectorField* field : {&map_, &map_theta_, &map_phi_, &trial_map_, &trial_positions_, &displacement_, &residual_,
                              &direction_, &product_, &preconditioned_, &map_step_, &old_positions_})
@@ -80,7 +80,9 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
   }
   report.energy_after = last;
   report.moved = last < (1 - least_total_gain) * report.energy_before;
-  if (!report.moved) {
+  if (report.moved) {
+    report.truncation = truncate();
+  } else {
     map_ = unit_sphere(surface_.grid());
     surface_.update(surface.positions());
   }
@@ -182,6 +184,16 @@ bool MeshRedistribution::move(const Coefficients& original) {
   }
   surface_.update(old_positions_);
   return false;
+}
+
+double MeshRedistribution::truncate() {
+  if (!truncation_) return 0;
+  trial_positions_ = surface_.positions();
+  truncation_->analysis(trial_positions_, coefficients_);
+  truncation_->synthesis(coefficients_, trial_positions_);
+  const double distance = std::sqrt((trial_positions_ - surface_.positions()).square().rowwise().sum().maxCoeff());
+  surface_.update(trial_positions_);
+  return distance;
 }
 
 void MeshRedistribution::carry(ScalarField& field) const {

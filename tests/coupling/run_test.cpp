@@ -64,7 +64,9 @@ void expect_same_state(const fs::path& a, const fs::path& b, const Scene& scene)
   EXPECT_TRUE(same(x.pressure, y.pressure));
   EXPECT_TRUE((x.vesicles[0].membrane.positions == y.vesicles[0].membrane.positions).all());
   EXPECT_TRUE((x.vesicles[0].membrane.target_areas == y.vesicles[0].membrane.target_areas).all());
+  EXPECT_TRUE((x.vesicles[0].membrane.initial_areas == y.vesicles[0].membrane.initial_areas).all());
   EXPECT_EQ(x.vesicles[0].integrator_history, y.vesicles[0].integrator_history);
+  EXPECT_EQ(x.vesicles[0].redistributions, y.vesicles[0].redistributions);
 }
 
 void compare_restart(const fs::path& folder, const Overrides& overrides, int threads) {
@@ -96,6 +98,14 @@ TEST_F(RunTest, RestartContinuesBitForBitWithTwoThreads) {
 }
 TEST_F(RunTest, RestartContinuesBitForBitWithMarkerHistory) {
   compare_restart(folder_, {"time.markers=ab2", "membrane.g=2"}, 2);
+}
+/// Redistributed at steps 16, 32 and 48; the checkpoint is of step 24.
+TEST_F(RunTest, RestartContinuesBitForBitThroughRedistributions) {
+  const Overrides always = {"mesh.max_aspect_ratio=1", "time.markers=ab2", "membrane.g=2"};
+  compare_restart(folder_, always, 2);
+  Simulation simulation(small_scene(always));
+  restore_checkpoint(at("parts") / "checkpoint.h5", simulation);
+  EXPECT_EQ(simulation.redistributions(0), 3);
 }
 TEST_F(RunTest, RestartContinuesBitForBitWithThePaperPreset) {
   compare_restart(folder_, {"method.preset=paper", "fluid.reynolds_number=1"}, 2);

@@ -95,6 +95,30 @@ TEST(Simulation, LookingAtItDoesNotChangeIt) {
   EXPECT_TRUE((watched.membrane(0).positions() == alone.membrane(0).positions()).all());
 }
 
+// Where its markers sit is no business of the membrane: the motion hardly notices that they are moved along it.
+TEST(Simulation, RedistributionLeavesTheMotionAlone) {
+  Simulation kept(small_scene({"mesh.redistribute=never"})), moved(small_scene({"mesh.max_aspect_ratio=1"}));
+  advance(kept, 48);
+  advance(moved, 48);
+  EXPECT_EQ(kept.redistributions(0), 0);
+  EXPECT_EQ(moved.redistributions(0), 3);
+  ASSERT_EQ(moved.last_redistributions().size(), 1U);
+  EXPECT_LT(moved.last_redistributions()[0].report.energy_after, moved.last_redistributions()[0].report.energy_before);
+  const vesicle::Diagnostics a = kept.measure().at(0), b = moved.measure().at(0);
+  EXPECT_NEAR(a.inclination_angle, b.inclination_angle, 1e-3);
+  EXPECT_NEAR(a.tank_treading_frequency, b.tank_treading_frequency, 1e-3);
+  EXPECT_NEAR(a.area_error, b.area_error, 1e-4);
+  EXPECT_NEAR(a.max_local_area_error, b.max_local_area_error, 2e-3);
+  moved.step();
+  EXPECT_TRUE(moved.last_redistributions().empty());
+}
+
+TEST(Simulation, AGoodMeshIsLeftAlone) {
+  Simulation simulation(small_scene());
+  advance(simulation, 48);
+  EXPECT_EQ(simulation.redistributions(0), 0);
+}
+
 TEST(Simulation, VesiclesInOneBoxDoNotDependOnTheirOrder) {
   Scene scene = small_scene({"domain.upper=[6, 3, 3]", "domain.cells=[36, 24, 24]"});
   VesicleScene oblate = sphere_at({2.8, 0, 0.3});

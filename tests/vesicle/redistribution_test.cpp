@@ -98,7 +98,8 @@ TEST_P(MeshRedistributionOf, AnEllipsoidKeepsItsShapeAndGainsItsBestMesh) {
   after.update(redistribution.positions());
 
   const MeshQuality ideal = mesh_quality(best);
-  EXPECT_GT(std::max(report.before.aspect_ratio / ideal.aspect_ratio, report.before.area_ratio / ideal.area_ratio), 1.3);
+  EXPECT_GT(std::max(report.before.aspect_ratio / ideal.aspect_ratio, report.before.area_ratio / ideal.area_ratio),
+            1.3);
   EXPECT_NEAR(report.after.aspect_ratio, ideal.aspect_ratio, 0.01 * ideal.aspect_ratio);
   EXPECT_NEAR(report.after.area_ratio, ideal.area_ratio, 0.02 * ideal.area_ratio);
   EXPECT_LT(report.energy_after, 1e-6 * report.energy_before);
@@ -122,7 +123,8 @@ TEST_P(MeshRedistributionOf, FieldsStayWithTheMaterial) {
   ASSERT_TRUE(redistribution.redistribute(before).moved);
   ScalarField field = at(before.positions());
   redistribution.carry(field);
-  EXPECT_LT((field - at(redistribution.positions())).abs().maxCoeff(), 1e-7);  // truncation of the field on the old mesh
+  EXPECT_LT((field - at(redistribution.positions())).abs().maxCoeff(),
+            1e-7);  // truncation of the field on the old mesh
 }
 
 TEST(MeshRedistribution, LeavesAGoodMeshAlone) {
@@ -151,6 +153,22 @@ TEST(MeshRedistribution, ASecondOneHardlyMoves) {
   EXPECT_TRUE((redistribution.positions() == surface.positions()).all());
 }
 
+/// Fewer degrees: the new positions have them and no more, and the report says how far off the surface that is.
+TEST(MeshRedistribution, KeepsTheDegreesAskedFor) {
+  Surface before(latitudes), after(latitudes);
+  before.update(ellipsoid_under(before.grid(), wound));
+  MeshRedistribution all(latitudes), few(latitudes, 22);
+  ASSERT_TRUE(all.redistribute(before).moved);
+  const RedistributionReport report = few.redistribute(before);
+  ASSERT_TRUE(report.moved);
+  after.update(few.positions());
+  const Coefficients& c = after.position_coefficients();
+  EXPECT_LT(c.energy(22, latitudes), 1e-28 * c.energy(0, 22));
+  const double distance = std::sqrt((few.positions() - all.positions()).square().rowwise().sum().maxCoeff());
+  EXPECT_DOUBLE_EQ(report.truncation, distance);
+  EXPECT_LT(off_ellipsoid(few.positions()), 4 * distance);  // 2 distance / (shortest semi-axis 0.7)
+}
+
 TEST(MeshRedistribution, TheMapIsOneToOne) {
   Surface surface(latitudes), map(latitudes);
   surface.update(ellipsoid_under(surface.grid(), wound));
@@ -166,6 +184,7 @@ TEST(MeshRedistribution, RefusesAnotherMesh) {
   surface.update(sphere(surface.grid()));
   MeshRedistribution redistribution(latitudes + 1);
   EXPECT_THROW(redistribution.redistribute(surface), std::invalid_argument);
+  EXPECT_THROW(MeshRedistribution(latitudes, latitudes + 1), std::invalid_argument);
   ScalarField field(3);
   EXPECT_THROW(redistribution.carry(field), std::invalid_argument);
 }
@@ -184,8 +203,8 @@ TEST(Membrane, RedistributionKeepsStrainsTotalsAndEnergy) {
   MembraneState state = membrane.state();
   state.target_areas = membrane.surface().area_weight() * (-strain(state.positions)).exp();
   state.target_areas *= state.initial_areas.sum() / state.target_areas.sum();
-  const double mean = std::log(state.initial_areas.sum() / (membrane.surface().area_weight() *
-                                                            (-strain(state.positions)).exp()).sum());
+  const double mean =
+      std::log(state.initial_areas.sum() / (membrane.surface().area_weight() * (-strain(state.positions)).exp()).sum());
   membrane.restore(state);
   membrane.compute_force();
   const double energy = membrane.energy();

@@ -11,7 +11,7 @@ namespace vesiflow::vesicle {
 /// SphericalHarmonics. With d = (x, y, z) a unit vector,
 ///   Y_n^m(d) = q_n^m(z) (x + i y)^m,
 /// q a polynomial from the three-term recurrence in n, which is stable on [-1, 1]: no angles, no division by sin(theta).
-/// O(points degrees^2): 3 fields of 64 degrees at 8192 points take about 0.05 s.
+/// O(points degrees^2): 3 fields of 64 degrees at 8192 points take 11 ms (AVX2, one thread).
 class PointEvaluation {
  public:
   /// For expansions of up to `degrees` degrees.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "vesicle/mesh_quality.h"
 #include "vesicle/point_evaluation.h"
 #include "vesicle/spherical_harmonics.h"
@@ -20,11 +22,12 @@ struct RedistributionLimits {
 
 /// What redistribute() did.
 struct RedistributionReport {
-  bool moved = false;          ///< whether there is a new mesh
-  MeshQuality before, after;   ///< after = before unless moved
-  double energy_before = 0;    ///< E below
+  bool moved = false;         ///< whether there is a new mesh
+  MeshQuality before, after;  ///< after = before unless moved
+  double energy_before = 0;   ///< E below
   double energy_after = 0;
-  int iterations = 0;          ///< Gauss-Newton steps
+  int iterations = 0;     ///< Gauss-Newton steps
+  double truncation = 0;  ///< greatest distance by which keeping fewer degrees took a marker off the old surface
 };
 
 /// Moves the markers of a mesh along its surface, leaving the shape alone: the surface X(x), x on the unit sphere, becomes
@@ -38,17 +41,21 @@ struct RedistributionReport {
 ///   P (A + mu) P w = -P A X,  A = diag(a_n), P = I - n n^T,
 /// by a few preconditioned conjugate gradients, pulls it back to the sphere and moves y, with step halving until E falls and the
 /// Jacobian of y stays positive. Markers are always the original expansion evaluated at y (PointEvaluation), so they
-/// lie on the original surface to round-off; what changes the shape is only the truncation of X o y to N degrees.
+/// lie on the original surface to round-off; what changes the shape is only the truncation of X o y.
+///
+/// With kept_degrees < N the new positions keep that many degrees. A simulation whose marker velocity has n < 2N/3 needs it: what
+/// lies above moves with nothing, and noise that redistribution shifts there would stay for good and pile up.
 class MeshRedistribution {
  public:
-  /// @throws std::invalid_argument unless latitudes >= 4.
-  explicit MeshRedistribution(int latitudes);
+  /// kept_degrees: of the new positions, 0 for all of them.
+  /// @throws std::invalid_argument unless latitudes >= 4 and 0 <= kept_degrees <= latitudes.
+  explicit MeshRedistribution(int latitudes, int kept_degrees = 0);
 
   /// Looks for a better mesh of the surface, which must have the same number of latitudes. There is none (moved = false)
   /// if E cannot be lowered by a tenth.
   RedistributionReport redistribute(const Surface& surface);
 
-  /// New markers, on the surface given to the last redistribute(); that surface's own if it did not move.
+  /// New markers, on the surface (but for report.truncation) given to the last redistribute(); that surface's own if it did not move.
   const VectorField& positions() const { return surface_.positions(); }
 
   /// The map y, unit vectors at the nodes.
@@ -63,6 +70,7 @@ class MeshRedistribution {
   void pull_back();
   bool is_one_to_one(const VectorField& map);
   bool move(const Coefficients& original);
+  double truncate();
   void project(VectorField& field) const;
   void apply_operator(const VectorField& field, VectorField& result);
   void weigh(const VectorField& field, bool inverse, VectorField& result);
@@ -70,6 +78,7 @@ class MeshRedistribution {
 
   Surface surface_;  // X o y
   SphericalHarmonics smoothing_;
+  std::optional<SphericalHarmonics> truncation_;
   PointEvaluation evaluation_;
   VectorField map_, map_theta_, map_phi_, trial_map_, trial_positions_;
   VectorField displacement_, residual_, direction_, product_, preconditioned_, map_step_, old_positions_;
