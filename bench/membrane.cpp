@@ -1,61 +1,49 @@
-// Spherical-harmonic transforms and the parts of a membrane's step, single-threaded.
-//   build/release/bench/membrane
-// Times are per call; `per_field` is microseconds per scalar field of a transform of three.
+// The geometry of a surface and the parts of a membrane's step. Transforms alone: bench/sht.
+//   OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive build/release/bench/membrane
 #include <benchmark/benchmark.h>
 
 #include "vesicle/membrane.h"
 #include "vesicle/shapes.h"
-#include "vesicle/spherical_harmonics.h"
 
 namespace {
 
 using namespace vesiflow::vesicle;
 
-struct Transform {
-  explicit Transform(int latitudes)
-      : grid(latitudes),
-        harmonics(latitudes, grid),
-        coefficients(latitudes, 3),
-        field(prolate(grid, 0.9)),
-        first(field),
-        second(field) {
-    harmonics.analysis(field, coefficients);
+struct Shape {
+  explicit Shape(int latitudes) : surface(latitudes), positions(prolate(surface.grid(), 0.9)) {
+    surface.update(positions, GeometryDetail::curvature);
   }
-  SphereGrid grid;
-  SphericalHarmonics harmonics;
-  Coefficients coefficients;
-  VectorField field, first, second;
+  Surface surface;
+  VectorField positions;
 };
 
-void set_per_field(benchmark::State& state) {
-  state.counters["per_field"] = benchmark::Counter(3e-6 * static_cast<double>(state.iterations()),
-                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+void first_form(benchmark::State& state) {
+  Shape shape(static_cast<int>(state.range(0)));
+  for (auto _ : state) shape.surface.update(shape.positions);
+}
+void curvatures(benchmark::State& state) {
+  Shape shape(static_cast<int>(state.range(0)));
+  for (auto _ : state) shape.surface.update(shape.positions, GeometryDetail::curvature);
 }
 
-void analysis(benchmark::State& state) {
-  Transform t(static_cast<int>(state.range(0)));
-  for (auto _ : state) t.harmonics.analysis(t.field, t.coefficients);
-  set_per_field(state);
+void laplacian_of_h(benchmark::State& state, LaplacianForm form, Upsampling upsampling) {
+  Shape shape(static_cast<int>(state.range(0)));
+  const LaplaceBeltrami laplacian(shape.surface.grid(), {form, upsampling, form == LaplacianForm::paper});
+  ScalarField result;
+  for (auto _ : state) laplacian.of_mean_curvature(shape.surface, result);
 }
-void synthesis(benchmark::State& state) {
-  Transform t(static_cast<int>(state.range(0)));
-  for (auto _ : state) t.harmonics.synthesis(t.coefficients, t.first);
-  set_per_field(state);
-}
-void gradient(benchmark::State& state) {
-  Transform t(static_cast<int>(state.range(0)));
-  for (auto _ : state) t.harmonics.gradient(t.coefficients, t.first, t.second);
-  set_per_field(state);
+
+void tension_force(benchmark::State& state) {
+  Shape shape(static_cast<int>(state.range(0)));
+  TensionForce tension({});
+  VectorField force = shape.positions;
+  for (auto _ : state) tension.add_to(shape.surface, shape.surface.mean_curvature(), force);
 }
 
 Membrane membrane_of(int latitudes) {
   return {prolate(SphereGrid(latitudes), 0.9), latitudes, MembraneParameters{}};
 }
 
-void geometry(benchmark::State& state) {
-  Membrane membrane = membrane_of(static_cast<int>(state.range(0)));
-  for (auto _ : state) membrane.update_geometry();
-}
 void forces(benchmark::State& state) {
   Membrane membrane = membrane_of(static_cast<int>(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(membrane.compute_force().data());
@@ -68,13 +56,17 @@ void velocity_filter(benchmark::State& state) {
 }
 
 void sizes(benchmark::internal::Benchmark* benchmark) {
-  for (const int latitudes : {32, 64, 128}) benchmark->Arg(latitudes);
+  for (const int latitudes : {32, 64, 128, 256}) benchmark->Arg(latitudes);
   benchmark->ArgName("latitudes")->Unit(benchmark::kMicrosecond);
 }
-BENCHMARK(analysis)->Apply(sizes);
-BENCHMARK(synthesis)->Apply(sizes);
-BENCHMARK(gradient)->Apply(sizes);
-BENCHMARK(geometry)->Apply(sizes);
+BENCHMARK(first_form)->Apply(sizes);
+BENCHMARK(curvatures)->Apply(sizes);
+BENCHMARK_CAPTURE(laplacian_of_h, cartesian, LaplacianForm::cartesian, Upsampling::twice)->Apply(sizes);
+BENCHMARK_CAPTURE(laplacian_of_h, cartesian_one_and_a_half, LaplacianForm::cartesian, Upsampling::three_halves)
+    ->Apply(sizes);
+BENCHMARK_CAPTURE(laplacian_of_h, christoffel, LaplacianForm::christoffel, Upsampling::twice)->Apply(sizes);
+BENCHMARK_CAPTURE(laplacian_of_h, paper, LaplacianForm::paper, Upsampling::twice)->Apply(sizes);
+BENCHMARK(tension_force)->Apply(sizes);
 BENCHMARK(forces)->Apply(sizes);
 BENCHMARK(velocity_filter)->Apply(sizes);
 

@@ -54,15 +54,18 @@ class Grid:
         return np.stack([self.table[f"{name}_{axis}"] for axis in "xyz"])
 
 
-def axes_of(grid):
-    figure = plt.figure(figsize=(4.2, 3.6))
-    axes = figure.add_subplot(projection="3d", computed_zorder=False)
-    x = grid.vector("position")
-    span = [np.ptp(c) for c in x]
-    axes.set_box_aspect(span, zoom=1.35)
+def add_axes(figure, x, place=111, zoom=1.35):
+    axes = figure.add_subplot(place, projection="3d", computed_zorder=False)
+    axes.set_box_aspect([np.ptp(c) for c in x], zoom=zoom)
     axes.set_axis_off()
     axes.view_init(elev=28, azim=-55)
-    return figure, axes, x
+    return axes
+
+
+def axes_of(grid):
+    figure = plt.figure(figsize=(4.2, 3.6))
+    x = grid.vector("position")
+    return figure, add_axes(figure, x), x
 
 
 def shaded(axes, x, colours, **options):
@@ -73,22 +76,48 @@ def face_values(values):
     return 0.25 * (values[1:, 1:] + values[:-1, 1:] + values[1:, :-1] + values[:-1, :-1])
 
 
-def draw_scalar(grid, name, target):
-    label, colours = SCALARS[name]
-    figure, axes, x = axes_of(grid)
+def paint_scalar(axes, grid, name):
+    """The surface coloured by a scalar; returns what a colour bar needs."""
+    colours = SCALARS[name][1]
     values = grid(name)
     bound = np.abs(values).max()
     norm = plt.Normalize(-bound, bound) if colours == "RdBu_r" else plt.Normalize(values.min(), values.max())
     mapping = matplotlib.cm.ScalarMappable(norm, colours)
-    shaded(axes, x, mapping.to_rgba(face_values(values)))
-    figure.colorbar(mapping, ax=axes, shrink=0.6, pad=0.02, label=label)
+    shaded(axes, grid.vector("position"), mapping.to_rgba(face_values(values)))
+    return mapping
+
+
+def draw_scalar(grid, name, target):
+    figure, axes, _ = axes_of(grid)
+    figure.colorbar(paint_scalar(axes, grid, name), ax=axes, shrink=0.6, pad=0.02, label=SCALARS[name][0])
+    save(figure, target)
+
+
+def paint_mesh(axes, x):
+    axes.plot_surface(*x, rstride=1, cstride=1, color="#f4f6fa", edgecolor=BLUE, linewidth=0.3, shade=False)
+
+
+def paint_plain(axes, x):
+    axes.plot_surface(*x, rstride=1, cstride=1, color="#eef1f6", edgecolor="#d3d9e4", linewidth=0.2, shade=False)
+
+
+def draw_overview(grid, target):
+    """Mesh, curvatures and Laplacian of H side by side."""
+    figure = plt.figure(figsize=(12, 2.9))
+    x = grid.vector("position")
+    paint_mesh(add_axes(figure, x, 141), x)
+    figure.axes[0].set_title("markers", fontsize=11)
+    for place, name in enumerate(("mean_curvature", "gaussian_curvature", "laplacian_of_mean_curvature"), start=142):
+        axes = add_axes(figure, x, place)
+        figure.colorbar(paint_scalar(axes, grid, name), ax=axes, shrink=0.55, pad=0.0)
+        axes.set_title(SCALARS[name][0], fontsize=11)
     save(figure, target)
 
 
 def draw_vectors(grid, name, target):
     label, length = VECTORS[name]
     figure, axes, x = axes_of(grid)
-    shaded(axes, x, np.full((*face_values(x[0]).shape, 4), (0.85, 0.87, 0.9, 1.0)))
+    paint_plain(axes, x)
     points, vectors = grid.markers("position"), grid.markers(name)
     strength = np.linalg.norm(vectors, axis=0)
     # Arrows on every few markers of the side that is seen.
@@ -96,7 +125,7 @@ def draw_vectors(grid, name, target):
     seen = view @ grid.markers("normal") > 0.05
     longitudes = points.shape[1] // grid.latitudes
     row, column = np.divmod(np.arange(points.shape[1]), longitudes)
-    chosen = seen & (row % 2 == 0) & (column % 3 == 0)
+    chosen = seen & (row % max(1, grid.latitudes // 14) == 0) & (column % max(1, grid.latitudes // 10) == 0)
     arrows = vectors[:, chosen] / strength.max() * length
     axes.quiver(*points[:, chosen], *arrows, color=BLUE, linewidth=0.8, arrow_length_ratio=0.3)
     axes.set_title(f"{label}, at most {strength.max():.3g}" if name != "normal" else label, fontsize=10)
@@ -105,8 +134,7 @@ def draw_vectors(grid, name, target):
 
 def draw_mesh(grid, target):
     figure, axes, x = axes_of(grid)
-    shaded(axes, x, np.full((*face_values(x[0]).shape, 4), (0.93, 0.95, 0.98, 1.0)))
-    axes.plot_wireframe(*[c * 1.002 for c in x], rstride=1, cstride=1, color=BLUE, linewidth=0.35)
+    paint_mesh(axes, x)
     axes.set_title(f"markers: {grid.latitudes} latitudes, {x[0].shape[1] - 1} longitudes", fontsize=10)
     save(figure, target)
 
@@ -133,7 +161,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="where surface_fields has written its tables")
     parser.add_argument("--out", type=Path, help="where the pictures go; the same folder unless given")
-    names = ["mesh", "spectrum", *SCALARS, *VECTORS]
+    names = ["overview", "mesh", "spectrum", *SCALARS, *VECTORS]
     parser.add_argument("--quantity", nargs="+", choices=names, default=names, metavar="NAME", help=", ".join(names))
     arguments = parser.parse_args()
     out = arguments.out or arguments.folder
@@ -141,7 +169,9 @@ def main():
     grid = Grid(arguments.folder / "markers.csv")
     for name in arguments.quantity:
         target = out / f"{name}.png"
-        if name == "mesh":
+        if name == "overview":
+            draw_overview(grid, target)
+        elif name == "mesh":
             draw_mesh(grid, target)
         elif name == "spectrum":
             draw_spectrum(arguments.folder, target)
