@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <map>
 
 #include "coefficient_surface.h"
@@ -37,7 +39,7 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
 struct Arguments {
   std::vector<std::string> surfaces = {"sphere", "ellipsoid", "y32"};
   std::vector<int> latitudes = {16, 32, 64, 128};
-  int sampling = 1;
+  std::vector<int> samplings = {1, 2};
   std::vector<std::string> forms = names_of(::forms);
   std::vector<std::string> upsamplings = names_of(::upsamplings);
   std::vector<std::string> truncations = names_of(::truncations);
@@ -54,8 +56,10 @@ void declare(CLI::App& command_line, Arguments& arguments) {
       ->default_str("16 32 64 128")
       ->check(CLI::Range(4, largest_latitudes));
   command_line
-      .add_option("--sampling", arguments.sampling,
-                  "1: sample the surface at the markers, as a simulation has it; 2: on twice the latitudes")
+      .add_option("--sampling", arguments.samplings,
+                  "1: sample the surface at the markers, as a simulation has it; 2: on twice the latitudes, for the "
+                  "Cartesian form")
+      ->default_str("1 2")
       ->check(CLI::IsMember({1, 2}));
   const auto add_choice = [&](const char* option, auto& chosen, const auto& values, const char* description) {
     command_line.add_option(option, chosen, description)->default_str("all")->check(CLI::IsMember(names_of(values)));
@@ -76,18 +80,15 @@ std::unique_ptr<SurfaceSource> surface_of(const std::string& name) {
   return std::make_unique<CoefficientSurface>(file);
 }
 
-std::vector<LaplacianOptions> options_of(const Arguments& arguments) {
+std::vector<LaplacianOptions> options_of(const Arguments& arguments, int sampling) {
   std::vector<LaplacianOptions> options;
   for (const std::string& form : arguments.forms)
     for (const std::string& truncated : arguments.truncations)
       for (const std::string& upsampling : arguments.upsamplings) {
         const LaplacianOptions choice = {
             .form = forms.at(form), .upsampling = upsamplings.at(upsampling), .truncated = truncations.at(truncated)};
-        if (measurable(choice, arguments.sampling)) options.push_back(choice);
+        if (measurable(choice, sampling)) options.push_back(choice);
       }
-  if (options.empty())
-    throw InputError(fmt::format("--sampling {}: Lap H only with --formula cartesian --upsampling 2 --truncated false",
-                                 arguments.sampling));
   return options;
 }
 
@@ -106,8 +107,17 @@ int geometry_accuracy(int argc, char** argv) {
   wait_passively(argv);
   Surfaces surfaces;
   for (const std::string& name : arguments.surfaces) surfaces.push_back(surface_of(name));
-  const auto measurements = measure(surfaces, arguments.latitudes, arguments.sampling, options_of(arguments));
-  fmt::print("{}", arguments.json ? json_report(measurements) : text_report(measurements));
+  std::vector<Measurement> all;
+  for (const int sampling : arguments.samplings) {
+    const std::vector<LaplacianOptions> options = options_of(arguments, sampling);
+    if (options.empty()) continue;
+    auto measurements = measure(surfaces, arguments.latitudes, sampling, options);
+    if (!arguments.json) fmt::print("{}\n", text_report(measurements));
+    std::ranges::move(measurements, std::back_inserter(all));
+  }
+  if (all.empty())
+    throw InputError("--sampling 2: Lap H only with --formula cartesian --upsampling 2 --truncated false");
+  if (arguments.json) fmt::print("{}", json_report(all));
   return 0;
 }
 
