@@ -67,8 +67,8 @@ struct Diagnostics {
   double elastic_energy = 0;        ///< of the tension and the penalties that are switched on
   double tension_min = 0;
   double tension_max = 0;
-  double spectrum_tail = 0;  ///< see spectrum_tail()
-  Resolution resolution;     ///< how well the mesh resolves the bending force
+  double spectrum_tail = 0;      ///< see spectrum_tail()
+  Resolution resolution;         ///< how well the mesh resolves the bending force
   double mesh_aspect_ratio = 1;  ///< see MeshQuality
   double mesh_area_ratio = 1;
 };
