@@ -112,6 +112,7 @@ RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) 
     *areas *= initial_area_ / areas->sum();
   }
   initial_area_ = initial_areas_.sum();  // to the last bit, as restore() takes it
+  conserve();
   return report;
 }
 
