@@ -1,6 +1,6 @@
 // Every quantity of a surface at its markers, as a table for plotting: a look at a shape before it is simulated.
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -97,8 +97,8 @@ Table marker_table(const Surface& surface) {
   const double measure = surface.area() / (4 * std::numbers::pi);
   ScalarField target(grid.size());
   for (int j = 0; j < grid.latitudes(); ++j)
-    target.segment(grid.index(0, j), grid.longitudes()).setConstant(measure * grid.weight()[j] *
-                                                                     grid.longitude_spacing());
+    target.segment(grid.index(0, j), grid.longitudes())
+        .setConstant(measure * grid.weight()[j] * grid.longitude_spacing());
   TensionForce tension_force({.sigma0 = 1});
   ScalarField tension;
   tension_force.evaluate(surface, target, tension);
@@ -137,11 +137,12 @@ void print_summary(const Surface& surface) {
   line("area, volume", fmt::format("{:.8g}, {:.8g}", surface.area(), surface.volume()));
   line("reduced volume", fmt::format("{:.6f}", reduced_volume(surface.area(), surface.volume())));
   line("excess area", fmt::format("{:.6g}", excess_area(surface.area(), surface.volume())));
-  line("semi-axes", fmt::format("{:.5g}, {:.5g}, {:.5g}", moments.semi_axes[0], moments.semi_axes[1],
-                                moments.semi_axes[2]));
+  line("semi-axes",
+       fmt::format("{:.5g}, {:.5g}, {:.5g}", moments.semi_axes[0], moments.semi_axes[1], moments.semi_axes[2]));
   line("mean curvature H", range(surface.mean_curvature()));
   line("Gaussian curvature K", range(surface.gaussian_curvature()));
-  line("int K dA / 4 pi", fmt::format("{:.12g}", surface.integral(surface.gaussian_curvature()) / (4 * std::numbers::pi)));
+  line("int K dA / 4 pi",
+       fmt::format("{:.12g}", surface.integral(surface.gaussian_curvature()) / (4 * std::numbers::pi)));
   line("bending energy / 2 pi", fmt::format("{:.8g}", bending_energy(surface) / (2 * std::numbers::pi)));
   line("mesh", fmt::format("aspect ratio {:.3g}, area ratio {:.3g}", quality.aspect_ratio, quality.area_ratio));
   line("resolution", how_fine.sufficient() ? fmt::format("sufficient, {:.1e} of Lap H unresolved", how_fine.unresolved)
@@ -152,11 +153,14 @@ void print_summary(const Surface& surface) {
 
 int main(int argc, char** argv) try {
   Options options;
-  CLI::App app{"Writes every quantity of a surface at its markers as CSV, and its spectrum; draw with tools/plot_surface.py."};
+  CLI::App app{
+      "Writes every quantity of a surface at its markers as CSV, and its spectrum; draw with tools/plot_surface.py."};
   app.add_option("surface", options.surface,
                  "sphere, prolate, oblate, ellipsoid, biconcave, or a file: coefficients, .obj or .off")
       ->capture_default_str();
-  app.add_option("--latitudes", options.latitudes, "N; 2 N^2 markers")->check(CLI::Range(4, 512))->capture_default_str();
+  app.add_option("--latitudes", options.latitudes, "N; 2 N^2 markers")
+      ->check(CLI::Range(4, 512))
+      ->capture_default_str();
   app.add_option("--reduced-volume", options.reduced_volume, "of a prolate or oblate")->capture_default_str();
   app.add_option("--axes", options.axes, "proportions of an ellipsoid")->expected(3)->capture_default_str();
   app.add_option("--fit-degrees", options.fit_degrees, "degrees of the fit to a triangle mesh")->capture_default_str();
@@ -172,7 +176,8 @@ int main(int argc, char** argv) try {
   surface.update(markers(options, surface.grid()), GeometryDetail::curvature);
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
-  if (error) throw std::runtime_error(fmt::format("--out {}: cannot be made: {}", options.out.string(), error.message()));
+  if (error)
+    throw std::runtime_error(fmt::format("--out {}: cannot be made: {}", options.out.string(), error.message()));
   marker_table(surface).write(options.out / "markers.csv");
   spectrum_table(surface).write(options.out / "spectrum.csv");
   print_summary(surface);

@@ -99,7 +99,8 @@ void TargetAreaUpdate::apply(const Surface& surface, const VectorField& velocity
   slip_divergence_ = target_areas * (dt * slip_divergence_).exp();
   const double scale = total_area / slip_divergence_.sum();
   if (!(std::isfinite(scale) && scale > 0))
-    throw std::domain_error("the target areas would not be finite: is the velocity, and is the time step small enough?");
+    throw std::domain_error(
+        "the target areas would not be finite: is the velocity, and is the time step small enough?");
   target_areas = scale * slip_divergence_;
 }
 

@@ -84,7 +84,9 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
     last = now;
     if (!worth_it) break;
   }
-  const auto kept = [](double after, double before) { return std::abs(after - before) < largest_shape_change * std::abs(before); };
+  const auto kept = [](double after, double before) {
+    return std::abs(after - before) < largest_shape_change * std::abs(before);
+  };
   report.moved = last < (1 - least_total_gain) * report.energy_before && kept(surface_.volume(), surface.volume()) &&
                  kept(surface_.area(), surface.area());
   if (report.moved) {

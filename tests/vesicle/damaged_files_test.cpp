@@ -27,9 +27,9 @@ using testing::TextFile;
 std::string damaged(std::string text, std::mt19937& generator) {
   const auto below = [&generator](std::size_t n) { return generator() % std::max<std::size_t>(n, 1); };
   const auto start_of_line = [&text](std::size_t at) { return at == 0 ? 0 : text.rfind('\n', at - 1) + 1; };
-  constexpr const char* awkward[] = {"nan", "-inf", "1e308",       "-1e-320", "2147483647", "-2147483648", "99999999999",
-                                     "0x1", "#",    "\n", "",      "+-1",     "1e999",      "-0",          "512",
-                                     "1,5", "3/",   "f 1 2 3\n", "OFF",     "\t\r\v",     "5 5"};
+  constexpr const char* awkward[] = {"nan", "-inf", "1e308", "-1e-320",   "2147483647", "-2147483648", "99999999999",
+                                     "0x1", "#",    "\n",    "",          "+-1",        "1e999",       "-0",
+                                     "512", "1,5",  "3/",    "f 1 2 3\n", "OFF",        "\t\r\v",      "5 5"};
   for (std::size_t edits = 1 + below(4); edits > 0; --edits) {
     const std::size_t at = below(text.size());
     switch (below(7)) {
@@ -117,7 +117,8 @@ TEST_P(DamagedMeshes, AreReadOrRefused) {
   std::ostringstream text;
   if (off) text << "OFF\n" << mesh.vertices.rows() << ' ' << mesh.triangles.rows() << " 0\n";
   for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i)
-    text << (off ? "" : "v ") << mesh.vertices(i, 0) << ' ' << mesh.vertices(i, 1) << ' ' << mesh.vertices(i, 2) << '\n';
+    text << (off ? "" : "v ") << mesh.vertices(i, 0) << ' ' << mesh.vertices(i, 1) << ' ' << mesh.vertices(i, 2)
+         << '\n';
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     text << (off ? "3" : "f");
     for (int corner : mesh.triangles.row(t)) text << ' ' << corner + (off ? 0 : 1);

@@ -220,14 +220,14 @@ TEST(Membrane, RedistributionKeepsStrainsTotalsAndEnergy) {
 
 /// There is nothing to gain from energies that are rounding.
 TEST(MeshRedistribution, DoesNotChaseRounding) {
-  for (const int latitudes : {4, 7, 16, 24, 33}) {
-    Surface surface(latitudes);
-    MeshRedistribution redistribution(latitudes);
+  for (const int size : {4, 7, 16, 24, 33}) {
+    Surface surface(size);
+    MeshRedistribution redistribution(size);
     for (const VectorField& x : {sphere(surface.grid()), prolate(surface.grid(), 0.3), oblate(surface.grid(), 0.3)}) {
       surface.update(x);
       const RedistributionReport report = redistribution.redistribute(surface);
-      EXPECT_FALSE(report.moved) << latitudes;
-      EXPECT_EQ(report.iterations, 0) << latitudes;
+      EXPECT_FALSE(report.moved) << size;
+      EXPECT_EQ(report.iterations, 0) << size;
     }
   }
 }

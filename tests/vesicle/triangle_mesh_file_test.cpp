@@ -64,7 +64,8 @@ TEST(TriangleMeshFile, ErrorsNameFileAndLine) {
 
 TEST(TriangleMeshFile, MessagesStayReadableForBinaryFiles) {
   const std::string garbage(100000, '\xff');
-  const std::string complaint = complaint_about("m.obj", "v 1 2 " + std::string("\0\1", 2) + garbage, read_triangle_mesh);
+  const std::string complaint =
+      complaint_about("m.obj", "v 1 2 " + std::string("\0\1", 2) + garbage, read_triangle_mesh);
   EXPECT_EQ(complaint, "m.obj:1: z = " + std::string(40, '?') + "...: must be a finite number");
 }
 
