@@ -4,6 +4,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "vesicle/bending.h"
@@ -35,10 +37,10 @@ VectorField markers(const Options& options, const SphereGrid& grid) {
   if (options.surface == "ellipsoid") return ellipsoid(grid, Vector3(options.axes.data()));
   if (options.surface == "biconcave") return biconcave_disc(grid);
   const std::filesystem::path file = options.surface;
-  if (!std::filesystem::exists(file))
+  if (std::error_code error; !std::filesystem::exists(file, error))
     throw std::runtime_error(fmt::format(
         "surface = {}: neither a file nor one of sphere, prolate, oblate, ellipsoid, biconcave", options.surface));
-  if (file.extension() == ".obj" || file.extension() == ".off")
+  if (is_triangle_mesh_name(file))
     return shape_from_coefficients(grid, fit_star_shaped(read_triangle_mesh(file), options.fit_degrees).surface);
   return shape_from_coefficients(grid, read_surface_coefficients(file));
 }
@@ -54,13 +56,13 @@ struct Table {
       add(fmt::format("{}_{}", name, "xyz"[component]), ScalarField(values.col(component)));
   }
   void write(const std::filesystem::path& path) const {
-    std::FILE* file = std::fopen(path.c_str(), "w");
-    if (file == nullptr) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
-    fmt::print(file, "{}\n", fmt::join(names, ","));
+    std::string text = fmt::format("{}\n", fmt::join(names, ","));
     for (Eigen::Index k = 0; k < columns.front().size(); ++k)
       for (std::size_t c = 0; c < columns.size(); ++c)
-        fmt::print(file, "{:.10g}{}", columns[c][k], c + 1 < columns.size() ? ',' : '\n');
-    std::fclose(file);
+        fmt::format_to(std::back_inserter(text), "{:.10g}{}", columns[c][k], c + 1 < columns.size() ? ',' : '\n');
+    std::ofstream stream(path);
+    stream << text << std::flush;
+    if (!stream) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
   }
   std::vector<std::string> names;
   std::vector<ScalarField> columns;
@@ -165,12 +167,17 @@ int main(int argc, char** argv) try {
   app.add_option("--out", options.out, "folder")->capture_default_str();
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    throw std::runtime_error(fmt::format("{} (--help lists the options)", error.what()));
   }
   Surface surface(options.latitudes);
   surface.update(markers(options, surface.grid()), GeometryDetail::curvature);
-  std::filesystem::create_directories(options.out);
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error)
+    throw std::runtime_error(fmt::format("--out {}: cannot be made: {}", options.out.string(), error.message()));
   marker_table(surface).write(options.out / "markers.csv");
   spectrum_table(surface).write(options.out / "spectrum.csv");
   print_summary(surface);

@@ -57,7 +57,7 @@ void Coefficients::truncate(int k) {
 }
 
 void Coefficients::filter_exponentially(double strength, double order) {
-  check_argument(strength >= 0, "strength", strength, ">= 0");
+  check_argument(std::isfinite(strength) && strength >= 0, "strength", strength, "finite and >= 0");
   check_argument(order > 0, "order", order, "> 0");
   const double highest = std::max(1, degrees_ - 1);
   for (int n = 0; n < degrees_; ++n) {

@@ -1,8 +1,9 @@
 #include "vesicle/conservation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
-#include <string>
 
 #include <Eigen/LU>
 
@@ -62,6 +63,7 @@ void ConservationProjection::correct_velocity(const Surface& surface, double dt,
   Eigen::Vector2d missing = Eigen::Vector2d::Zero();
   if (conserved_.volume) missing[0] = (*conserved_.volume - surface.volume()) / dt - surface.flux(velocity);
   if (conserved_.area) missing[1] = (*conserved_.area - surface.area()) / dt - area_rate(surface, velocity);
+  if (!missing.allFinite()) throw std::domain_error("the velocity of the markers is not finite");
   add(surface, multipliers(surface, missing), velocity);
 }
 
@@ -72,6 +74,8 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
   // The matrix is that of the surface before the move: the error falls by a factor of the size of D in each iteration.
   constexpr int max_iterations = 50;
   constexpr double tolerance = 1e-13;
+  constexpr double divergence = 10;
+  double smallest_error = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     positions_ = surface.positions() + displacement;
     moved_->update(positions_);
@@ -86,10 +90,13 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
       error = std::max(error, std::abs(missing[1] / *conserved_.area));
     }
     if (error < tolerance) return;
+    if (!(error < divergence * smallest_error)) break;
+    smallest_error = std::min(smallest_error, error);
     add(surface, multipliers(surface, missing), displacement);
   }
-  throw std::domain_error("volume and area were not met after " + std::to_string(max_iterations) +
-                          " corrections: the displacement is too large, or no surface nearby has both");
+  throw std::domain_error(
+      "corrections of the displacement do not lead to the volume and area that were asked for: the displacement is too "
+      "large, or no surface nearby has both");
 }
 
 }  // namespace vesiflow::vesicle

@@ -22,6 +22,11 @@ const MembraneParameters& checked(const MembraneParameters& p) {
   return p;
 }
 
+void check_areas(const ScalarField& areas, const char* name) {
+  check_argument((areas > 0).all(), name, areas.minCoeff<Eigen::PropagateNaN>(), "finite and > 0");
+  check_argument(areas.isFinite().all(), name, areas.maxCoeff(), "finite and > 0");
+}
+
 int normal_degrees(const MembraneParameters& p, int latitudes) {
   return p.normal_degrees == 0 ? two_thirds_degrees(latitudes) : p.normal_degrees;
 }
@@ -42,7 +47,8 @@ Membrane::Membrane(const VectorField& initial_positions, int latitudes, const Me
   if (parameters.sigma0 > 0)
     tension_force_.emplace(TensionParameters{parameters.sigma0, parameters.tension_law, parameters.tension_form});
   update_geometry();
-  if (!(surface_.volume() > 0)) {
+  constexpr double rounding = 1e-12;  // a flat shape encloses that much
+  if (!(surface_.volume() > rounding * std::pow(surface_.area(), 1.5))) {
     std::ostringstream message;
     message << "the volume enclosed by the initial positions is " << surface_.volume()
             << ": must be > 0 (is X_theta x X_phi outward?)";
@@ -139,16 +145,17 @@ void Membrane::restore(const MembraneState& state) {
   check_markers(state.positions, "positions", markers);
   check_markers(state.target_areas, "target_areas", markers);
   check_markers(state.initial_areas, "initial_areas", markers);
-  check_argument((state.target_areas > 0).all(), "smallest target area", state.target_areas.minCoeff(), "> 0");
-  check_argument((state.initial_areas > 0).all(), "smallest initial area", state.initial_areas.minCoeff(), "> 0");
-  check_argument(state.initial_volume > 0, "initial_volume", state.initial_volume, "> 0");
+  check_areas(state.target_areas, "a target area");
+  check_areas(state.initial_areas, "an initial area");
+  check_argument(std::isfinite(state.initial_volume) && state.initial_volume > 0, "initial_volume",
+                 state.initial_volume, "finite and > 0");
+  surface_.update(state.positions, detail());
   positions_ = state.positions;
   target_areas_ = state.target_areas;
   initial_areas_ = state.initial_areas;
   initial_area_ = initial_areas_.sum();
   initial_volume_ = state.initial_volume;
   conserve();
-  update_geometry();
 }
 
 }  // namespace vesiflow::vesicle

@@ -1,6 +1,8 @@
 #include "vesicle/mesh_control.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "check.h"
 #include "columns.h"
@@ -94,8 +96,12 @@ void TargetAreaUpdate::apply(const Surface& surface, const VectorField& velocity
   for (int component = 0; component < 3; ++component)
     slip_.col(component) -= normal_slip_ * surface.normal().col(component);
   surface.divergence(slip_, slip_divergence_);
-  target_areas *= (dt * slip_divergence_).exp();
-  target_areas *= total_area / target_areas.sum();
+  slip_divergence_ = target_areas * (dt * slip_divergence_).exp();
+  const double scale = total_area / slip_divergence_.sum();
+  if (!(std::isfinite(scale) && scale > 0))
+    throw std::domain_error(
+        "the target areas would not be finite: is the velocity, and is the time step small enough?");
+  target_areas = scale * slip_divergence_;
 }
 
 }  // namespace vesiflow::vesicle

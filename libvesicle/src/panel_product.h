@@ -24,8 +24,6 @@ class PanelMatrix {
   PanelMatrix(int first_row, int last_row, int columns)
       : first_row_(first_row), fours_(std::max(0, (last_row - first_row + 3) / 4)), columns_(columns) {}
 
-  int first_row() const { return first_row_; }
-  int columns() const { return columns_; }
   std::size_t size() const { return std::size_t(4) * fours_ * columns_; }
   void place(double* data) { data_ = data; }
 

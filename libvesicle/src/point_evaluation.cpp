@@ -62,7 +62,7 @@ void PointEvaluation::values_at(const Coefficients& coefficients, const VectorFi
   check_argument(values.rows() == directions.rows(), "rows of values", values.rows(), "one per direction");
   check_argument(values.cols() == fields, "columns of values", values.cols(), "one per field");
   if (directions.rows() == 0) return;
-  const double off = (directions.square().rowwise().sum() - 1).abs().maxCoeff();
+  const double off = (directions.square().rowwise().sum() - 1).abs().maxCoeff<Eigen::PropagateNaN>();
   check_argument(off < 2e-8, "largest ||direction|^2 - 1|", off, "below 2e-8");
   int first = 0;
   for (; first + 3 <= fields; first += 3) evaluate<3>(coefficients, first, directions, values);

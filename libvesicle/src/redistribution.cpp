@@ -16,6 +16,8 @@ constexpr int max_iterations = 30;
 constexpr int conjugate_gradient_steps = 12;
 constexpr double least_gain = 0.02;  // of a Gauss-Newton step, as a fraction of E; less is not worth another
 constexpr double least_total_gain = 0.1;
+/// Of volume and area, beyond which the surface was not resolved: as X o y it would be another one.
+constexpr double largest_shape_change = 0.01;
 constexpr double longest_step = 0.3;  // of y in one step, radians
 constexpr int halvings = 6;
 /// Keeps w finite where E does not see it; small beside a_2 = 24.
@@ -68,7 +70,11 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
   report.before = mesh_quality(surface);
   report.energy_before = energy();
   double last = report.energy_before;
-  while (report.iterations < max_iterations && last > 0) {
+  // E of positions that are a linear image of the sphere but for their rounding.
+  constexpr double rounding = 1e-14;
+  const int highest = original.degrees() - 1;
+  const double round_off = rounding * rounding * weight(highest) * original.energy(1, highest + 1);
+  while (report.iterations < max_iterations && last > round_off) {
     find_displacement();
     pull_back();
     if (!move(original)) break;
@@ -78,14 +84,19 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
     last = now;
     if (!worth_it) break;
   }
-  report.energy_after = last;
-  report.moved = last < (1 - least_total_gain) * report.energy_before;
+  const auto kept = [](double after, double before) {
+    return std::abs(after - before) < largest_shape_change * std::abs(before);
+  };
+  report.moved = last < (1 - least_total_gain) * report.energy_before && kept(surface_.volume(), surface.volume()) &&
+                 kept(surface_.area(), surface.area());
   if (report.moved) {
     report.truncation = truncate();
   } else {
+    last = report.energy_before;
     map_ = unit_sphere(surface_.grid());
     surface_.update(surface.positions());
   }
+  report.energy_after = last;
   report.after = mesh_quality(surface_);
   return report;
 }

@@ -45,8 +45,8 @@ double radius_of_sphere(double volume) {
 double log_aspect_ratio(double reduced_volume, double far_side) {
   check_argument(reduced_volume > 0 && reduced_volume <= 1, "reduced_volume", reduced_volume, "in (0, 1]");
   if (spheroid_reduced_volume(std::exp(far_side)) >= reduced_volume)
-    throw std::invalid_argument("reduced_volume = " + std::to_string(reduced_volume) +
-                                ": no spheroid with an aspect ratio below e^60 is so flat or so slender");
+    check_argument(false, "reduced_volume", reduced_volume,
+                   "larger: no spheroid with an aspect ratio below e^60 is so flat or so slender");
   double near = 0;
   double far = far_side;
   for (double middle = far / 2; middle != near && middle != far; middle = near + (far - near) / 2)
@@ -63,7 +63,7 @@ Coefficients radius_of(std::span<const Harmonic> terms, int largest_degree) {
     if (term.degree < 0 || term.degree > largest_degree)
       throw std::invalid_argument("degree of a harmonic = " + std::to_string(term.degree) + ": must be in [0, " +
                                   std::to_string(largest_degree) + "], the latitudes of the mesh less two");
-    if (std::abs(term.order) > term.degree)
+    if (term.order < -term.degree || term.order > term.degree)
       throw std::invalid_argument("order of a harmonic = " + std::to_string(term.order) +
                                   ": must be in [-n, n], n = " + std::to_string(term.degree) + " its degree");
     check_argument(std::isfinite(term.amplitude), "amplitude of a harmonic", term.amplitude, "finite");
@@ -132,7 +132,7 @@ double spheroid_reduced_volume(double aspect_ratio) {
     area = 1 + q / e * std::asin(e);
   } else if (q < 1) {
     const double e = std::sqrt((1 - q) * (1 + q));
-    area = 1 + q * q / e * std::atanh(e);
+    area = 1 + q * q / e * std::asinh(e / q);  // atanh(e), where e may round to 1
   }
   return reduced_volume(2 * pi * area, 4 * pi / 3 * q);
 }
@@ -146,7 +146,8 @@ double oblate_aspect_ratio(double reduced_volume) {
 }
 
 VectorField ellipsoid(const SphereGrid& grid, const Vector3& proportions, const Placement& placement) {
-  for (double p : proportions) check_argument(p > 0 && std::isfinite(p), "semi-axis proportion", p, "finite and > 0");
+  for (double p : proportions)  // whose product must not overflow
+    check_argument(p >= 1e-100 && p <= 1e100, "semi-axis proportion", p, "in [1e-100, 1e100]");
   check_placement(placement);
   VectorField shape(grid.size(), 3);
   for (int j = 0; j < grid.latitudes(); ++j)

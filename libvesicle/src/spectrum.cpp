@@ -12,16 +12,29 @@
 namespace vesiflow::vesicle {
 namespace {
 
-constexpr int largest_latitudes = 512;
+constexpr int largest_latitudes = Surface::largest_latitudes;
 
 double laplacian_symbol(double n) {
   return n * (n + 1);
+}
+
+/// sum_{k >= 0} [(d + k) (d + k + 1)]^2 exp(-2 r k), from the sums of k^j q^k = q A_j(q) / (1 - q)^{j+1}, A_j Eulerian.
+double sum_of_squared_symbols(double d, double r) {
+  const double q = std::exp(-2 * r), p = -std::expm1(-2 * r);
+  const double power_sum[] = {1 / p, q / std::pow(p, 2), q * (1 + q) / std::pow(p, 3),
+                              q * (1 + q * (4 + q)) / std::pow(p, 4),
+                              q * (1 + q * (11 + q * (11 + q))) / std::pow(p, 5)};
+  const double a = laplacian_symbol(d), b = 2 * d + 1;  // (d + k) (d + k + 1) = a + b k + k^2
+  return a * a * power_sum[0] + 2 * a * b * power_sum[1] + (b * b + 2 * a) * power_sum[2] + 2 * b * power_sum[3] +
+         power_sum[4];
 }
 
 }  // namespace
 
 Spectrum::Spectrum(const Coefficients& coefficients) {
   check_argument(coefficients.degrees() >= 4, "degrees", coefficients.degrees(), ">= 4");
+  const double energy = coefficients.energy(0, coefficients.degrees());
+  check_argument(std::isfinite(energy), "sum of the squares of the coefficients", energy, "finite");
   double scale = 0;
   for (int n = 0; n < coefficients.degrees(); ++n) {
     amplitude_.push_back(std::sqrt(coefficients.energy(n, n + 1)));
@@ -68,10 +81,9 @@ double Spectrum::extrapolated(double degree) const {
 }
 
 double Spectrum::laplacian_tail(double degrees) const {
+  if (laplacian_scale_ == 0) return 0;
   if (!(decay_rate_ > 0)) return std::numeric_limits<double>::infinity();
-  // The sum over n >= degrees of a slowly varying factor times exp(-2 r n), by its leading term.
-  const double first = laplacian_symbol(degrees) * extrapolated(degrees);
-  return first / std::sqrt(-std::expm1(-2 * decay_rate_)) / laplacian_scale_;
+  return extrapolated(degrees) * std::sqrt(sum_of_squared_symbols(degrees, decay_rate_)) / laplacian_scale_;
 }
 
 Spectrum mean_curvature_spectrum(const Surface& surface) {

@@ -8,12 +8,21 @@
 
 namespace vesiflow::vesicle {
 
-SphereGrid::SphereGrid(int latitudes) : SphereGrid(latitudes, 2 * latitudes) {}
+namespace {
 
-SphereGrid::SphereGrid(int latitudes, int longitudes) : latitudes_(latitudes), longitudes_(longitudes) {
-  check_argument(latitudes >= 2, "latitudes", latitudes, ">= 2");
-  check_argument(longitudes >= 2 * latitudes && longitudes % 2 == 0, "longitudes", longitudes,
-                 "even and at least twice the latitudes");
+int checked_latitudes(int latitudes) {
+  check_argument(latitudes >= 2 && latitudes <= SphereGrid::largest_latitudes, "latitudes", latitudes, "in [2, 4096]");
+  return latitudes;
+}
+
+}  // namespace
+
+SphereGrid::SphereGrid(int latitudes) : SphereGrid(latitudes, 2 * checked_latitudes(latitudes)) {}
+
+SphereGrid::SphereGrid(int latitudes, int longitudes)
+    : latitudes_(checked_latitudes(latitudes)), longitudes_(longitudes) {
+  check_argument(longitudes >= 2 * latitudes && longitudes <= largest_longitudes && longitudes % 2 == 0, "longitudes",
+                 longitudes, "even, at least twice the latitudes and at most 16384");
   const GaussLegendre rule = gauss_legendre(latitudes);
   for (ScalarField* field : {&colatitude_, &sin_, &cos_, &weight_, &parameter_measure_}) field->resize(latitudes);
   const long double spacing = 2 * std::numbers::pi_v<long double> / longitudes;

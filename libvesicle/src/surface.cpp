@@ -1,5 +1,6 @@
 #include "vesicle/surface.h"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,12 @@ namespace vesiflow::vesicle {
 namespace {
 
 constexpr int projector_fields = 6;  // distinct entries of a symmetric 3 x 3 matrix
+
+const SphereGrid& checked(const SphereGrid& grid) {
+  check_argument(grid.latitudes() >= 4 && grid.latitudes() <= Surface::largest_latitudes, "latitudes", grid.latitudes(),
+                 "in [4, 512]");
+  return grid;
+}
 
 void check_finite(const VectorField& positions) {
   if (positions.isFinite().all()) return;
@@ -33,13 +40,11 @@ struct Surface::Work {
 Surface::Surface(int latitudes) : Surface(SphereGrid(latitudes)) {}
 
 Surface::Surface(const SphereGrid& grid)
-    : grid_(grid),
+    : grid_(checked(grid)),
       harmonics_(grid_.latitudes(), grid_, projector_fields),
       geometry_(grid_),
       area_weight_(grid_.size()),
-      work_(std::make_unique<Work>(grid_.size())) {
-  check_argument(grid.latitudes() >= 4, "latitudes", grid.latitudes(), ">= 4");
-}
+      work_(std::make_unique<Work>(grid_.size())) {}
 Surface::~Surface() = default;
 Surface::Surface(Surface&&) noexcept = default;
 Surface& Surface::operator=(Surface&&) noexcept = default;
@@ -47,6 +52,7 @@ Surface& Surface::operator=(Surface&&) noexcept = default;
 void Surface::update(const VectorField& positions, GeometryDetail detail) {
   check_markers(positions, "positions", grid_.size());
   check_finite(positions);
+  area_ = volume_ = std::numeric_limits<double>::quiet_NaN();  // what remains if the mesh is degenerate
   positions_ = positions;
   harmonics_.analysis(positions_, coefficients_);
   geometry_.update(harmonics_, coefficients_, detail);

@@ -56,7 +56,7 @@ Coefficients read_surface_coefficients(const std::filesystem::path& path) {
       const double re = file.number(words[k], names[k]);
       const double im = file.number(words[k + 1], names[k + 1]);
       if (m == 0 && im != 0)
-        file.fail(std::string(names[k + 1]) + " = " + std::string(words[k + 1]) + ": must be 0 for m = 0");
+        file.fail(std::string(names[k + 1]) + " = " + TextLines::shown(words[k + 1]) + ": must be 0 for m = 0");
       entry.value[k / 2 - 1] = {re, im};
     }
     const auto [other, is_new] = entries.try_emplace({n, m}, entry);

@@ -15,14 +15,17 @@ SurfaceGeometry::SurfaceGeometry(const SphereGrid& grid) {
 
 void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coefficients& positions,
                              GeometryDetail detail) {
-  has_curvature_ = detail == GeometryDetail::curvature;
-  if (has_curvature_)
+  const bool with_curvature = detail == GeometryDetail::curvature;
+  has_curvature_ = false;
+  if (with_curvature)
     harmonics.derivatives(positions, theta_, phi_, theta_theta_, theta_phi_, phi_phi_);
   else
     harmonics.gradient(positions, theta_, phi_);
   update_first_form();
   check_area_elements();
-  if (has_curvature_) update_second_form();
+  if (!with_curvature) return;
+  update_second_form();
+  has_curvature_ = true;
 }
 
 void SurfaceGeometry::add_curvature(const SphericalHarmonics& harmonics, const Coefficients& positions) {

@@ -5,6 +5,14 @@
 #include "check.h"
 
 namespace vesiflow::vesicle {
+namespace {
+
+void check_target_areas(const ScalarField& target_areas, const Surface& surface) {
+  check_markers(target_areas, "target_areas", surface.grid().size());
+  check_argument((target_areas > 0).all(), "a target area", target_areas.minCoeff<Eigen::PropagateNaN>(), "> 0");
+}
+
+}  // namespace
 
 TensionForce::TensionForce(const TensionParameters& parameters) : parameters_(parameters) {
   check_argument(std::isfinite(parameters.sigma0) && parameters.sigma0 >= 0, "sigma0", parameters.sigma0,
@@ -12,7 +20,7 @@ TensionForce::TensionForce(const TensionParameters& parameters) : parameters_(pa
 }
 
 void TensionForce::evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const {
-  check_markers(target_areas, "target_areas", surface.grid().size());
+  check_target_areas(target_areas, surface);
   const ScalarField& areas = surface.area_weight();
   if (parameters_.law == TensionLaw::logarithmic)
     tension = parameters_.sigma0 * (target_areas / areas) * (areas / target_areas).log();
@@ -33,7 +41,7 @@ void TensionForce::add_to(const Surface& surface, const ScalarField& tension, Ve
 }
 
 double TensionForce::energy(const Surface& surface, const ScalarField& target_areas) const {
-  check_markers(target_areas, "target_areas", surface.grid().size());
+  check_target_areas(target_areas, surface);
   const ScalarField& areas = surface.area_weight();
   const double sum = parameters_.law == TensionLaw::logarithmic
                          ? ((areas / target_areas).log().square() * target_areas).sum()

@@ -44,14 +44,22 @@ bool TextLines::next() {
 double TextLines::number(std::string_view word, std::string_view name) const {
   double value = 0;
   if (!parse(word, value) || !std::isfinite(value))
-    fail(std::string(name) + " = " + std::string(word) + ": must be a finite number");
+    fail(std::string(name) + " = " + shown(word) + ": must be a finite number");
   return value;
 }
 
 int TextLines::integer(std::string_view word, std::string_view name) const {
   int value = 0;
-  if (!parse(word, value)) fail(std::string(name) + " = " + std::string(word) + ": must be a whole number");
+  if (!parse(word, value)) fail(std::string(name) + " = " + shown(word) + ": must be a whole number");
   return value;
+}
+
+std::string TextLines::shown(std::string_view word) {
+  constexpr std::size_t longest = 40;
+  std::string text(word.substr(0, longest));
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return word.size() > longest ? text + "..." : text;
 }
 
 void TextLines::fail_at(int line, std::string_view what) const {

@@ -27,6 +27,9 @@ class TextLines {
   double number(std::string_view word, std::string_view name) const;
   int integer(std::string_view word, std::string_view name) const;
 
+  /// The word as it can be printed in a message: its beginning, with '?' for what is not text.
+  static std::string shown(std::string_view word);
+
   [[noreturn]] void fail(std::string_view what) const { fail_at(line_, what); }
   [[noreturn]] void fail_at(int line, std::string_view what) const;
 

@@ -115,14 +115,25 @@ TriangleMesh read_off(const std::filesystem::path& path) {
       corners.push_back(file.integer(file.words()[k], "corner"));
     builder.add_face(corners, file);
   }
+  if (file.next()) file.fail("the file goes on after its " + std::to_string(faces) + " faces");
   return builder.finish(file, 0);
+}
+
+std::string lower_case_ending(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
 }
 
 }  // namespace
 
+bool is_triangle_mesh_name(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  return ending == ".obj" || ending == ".off";
+}
+
 TriangleMesh read_triangle_mesh(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lower_case_ending(path);
   if (ending == ".obj") return read_obj(path);
   if (ending == ".off") return read_off(path);
   throw std::runtime_error(path.string() + ": the name of a mesh must end in .obj or .off");

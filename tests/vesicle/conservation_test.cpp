@@ -1,6 +1,7 @@
 #include "vesicle/conservation.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +114,24 @@ TEST_F(Conservation, RefusesBadArguments) {
   // Half the volume at the same area is no small correction; the sphere's area is the least.
   ConservationProjection impossible(surface.grid(), {surface.volume(), 0.5 * surface.area()});
   EXPECT_THROW(impossible.correct_displacement(surface, motion), std::domain_error);
+}
+
+/// Area and volume of a nearly spherical shape leave no room for a displacement that is larger than its deviation.
+TEST(ConservationProjection, SaysWhenCorrectionsDiverge) {
+  Surface surface(16);
+  for (const double deviation : {1e-3, 1e-4}) {
+    surface.update(ellipsoid(surface.grid(), {1, 1, 1 + deviation}));
+    ConservationProjection projection(surface.grid(), {surface.volume(), surface.area()});
+    VectorField displacement = 1e-3 * testing::smooth_vector(surface.grid(), 4, 9);
+    try {
+      projection.correct_displacement(surface, displacement);
+      ADD_FAILURE();
+    } catch (const std::domain_error& error) {
+      EXPECT_NE(std::string(error.what()).find("volume and area"), std::string::npos) << error.what();
+    }
+    displacement(5, 1) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(projection.correct_velocity(surface, 0.1, displacement), std::domain_error);
+  }
 }
 
 }  // namespace

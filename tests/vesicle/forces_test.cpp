@@ -187,8 +187,20 @@ TEST_F(Forces, RefuseBadArguments) {
   EXPECT_THROW(TensionForce({.sigma0 = std::nan("")}), std::invalid_argument);
   EXPECT_THROW(add_volume_penalty(surface, 1, 0, force), std::invalid_argument);
   EXPECT_THROW(add_area_penalty(surface, 1, 0, force), std::invalid_argument);
+  for (const double wrong : {-1.0, std::nan(""), double{INFINITY}}) {
+    EXPECT_THROW(add_volume_penalty(surface, wrong, 1, force), std::invalid_argument);
+    EXPECT_THROW(add_area_penalty(surface, wrong, 1, force), std::invalid_argument);
+    EXPECT_THROW(volume_penalty_energy(surface, 1, wrong), std::invalid_argument);
+    EXPECT_THROW(area_penalty_energy(surface, 1, wrong), std::invalid_argument);
+  }
   ScalarField sigma;
   EXPECT_THROW(TensionForce({.sigma0 = 1}).evaluate(surface, ScalarField::Ones(3), sigma), std::invalid_argument);
+  for (const double wrong : {0.0, -1.0, std::nan("")}) {
+    ScalarField target = surface.area_weight();
+    target[11] = wrong;
+    EXPECT_THROW(TensionForce({.sigma0 = 1}).evaluate(surface, target, sigma), std::invalid_argument);
+    EXPECT_THROW(TensionForce({.sigma0 = 1}).energy(surface, target), std::invalid_argument);
+  }
 }
 
 }  // namespace

@@ -123,5 +123,27 @@ TEST(Membrane, RefusesBadArguments) {
   EXPECT_THROW(membrane.restore(state), std::invalid_argument);
 }
 
+TEST(Membrane, ARefusedStateChangesNothing) {
+  const SphereGrid grid(8);
+  Membrane membrane(prolate(grid, 0.9), 8, {});
+  const MembraneState good = membrane.state();
+  const auto refuse = [&](auto change) {
+    MembraneState bad = good;
+    bad.initial_volume *= 2;
+    change(bad);
+    EXPECT_ANY_THROW(membrane.restore(bad));
+    EXPECT_TRUE((membrane.positions() == good.positions).all());
+    EXPECT_EQ(membrane.initial_volume(), good.initial_volume);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  refuse([](MembraneState& s) { s.positions(5, 1) = nan; });
+  refuse([](MembraneState& s) { s.positions.setZero(); });
+  for (const double value : {0.0, -1.0, nan, infinity}) {
+    refuse([value](MembraneState& s) { s.target_areas[7] = value; });
+    refuse([value](MembraneState& s) { s.initial_areas[7] = value; });
+    refuse([value](MembraneState& s) { s.initial_volume = value; });
+  }
+}
+
 }  // namespace
 }  // namespace vesiflow::vesicle

@@ -1,6 +1,7 @@
 #include "vesicle/mesh_control.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -145,6 +146,19 @@ TEST(TargetAreaUpdate, FollowsTheSlidingMesh) {
     return (surface.area_weight() / areas - 1).abs().maxCoeff();
   };
   EXPECT_NEAR(std::log2(strain(2e-3) / strain(1e-3)), 2, 0.1);
+}
+
+TEST(TargetAreaUpdate, RefusesWhatWouldNotBeFinite) {
+  Surface surface(8);
+  surface.update(ellipsoid(surface.grid(), {1, 1.2, 1.5}));
+  TargetAreaUpdate update(surface.grid(), SlipReference::dealiased);
+  const VectorField u = testing::smooth_vector(surface.grid(), 4, 1), zero = VectorField::Zero(u.rows(), 3);
+  VectorField broken = u;
+  broken(9, 2) = std::numeric_limits<double>::quiet_NaN();
+  ScalarField areas = surface.area_weight();
+  EXPECT_THROW(update.apply(surface, broken, u, 0.1, surface.area(), areas), std::domain_error);
+  EXPECT_THROW(update.apply(surface, u, zero, 1e6, surface.area(), areas), std::domain_error);
+  EXPECT_TRUE((areas == surface.area_weight()).all());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "vesicle/point_evaluation.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,16 @@ TEST(PointEvaluation, RefusesBadArguments) {
   EXPECT_THROW(evaluation.values_at(random_coefficients(8, 2, 15), directions, values), std::invalid_argument);
   directions(1, 0) = 1.001;
   EXPECT_THROW(evaluation.values_at(random_coefficients(8, 1, 15), directions, values), std::invalid_argument);
+}
+
+/// Largest elements of arrays may pass over a NaN.
+TEST(PointEvaluation, RefusesDirectionsThatAreNotANumber) {
+  const PointEvaluation evaluation(4);
+  VectorField directions = VectorField::Zero(40, 3);
+  directions.col(0) = 1;
+  directions(17, 1) = std::numeric_limits<double>::quiet_NaN();
+  Eigen::ArrayXXd values(40, 1);
+  EXPECT_THROW(evaluation.values_at(testing::random_coefficients(4, 1, 1), directions, values), std::invalid_argument);
 }
 
 }  // namespace

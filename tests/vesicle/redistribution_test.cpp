@@ -218,5 +218,32 @@ TEST(Membrane, RedistributionKeepsStrainsTotalsAndEnergy) {
   EXPECT_NEAR(membrane.energy(), energy, 1e-6 * energy);
 }
 
+/// There is nothing to gain from energies that are rounding.
+TEST(MeshRedistribution, DoesNotChaseRounding) {
+  for (const int size : {4, 7, 16, 24, 33}) {
+    Surface surface(size);
+    MeshRedistribution redistribution(size);
+    for (const VectorField& x : {sphere(surface.grid()), prolate(surface.grid(), 0.3), oblate(surface.grid(), 0.3)}) {
+      surface.update(x);
+      const RedistributionReport report = redistribution.redistribute(surface);
+      EXPECT_FALSE(report.moved) << size;
+      EXPECT_EQ(report.iterations, 0) << size;
+    }
+  }
+}
+
+/// Moving the markers of a surface of noise makes another surface of them.
+TEST(MeshRedistribution, LeavesAnUnresolvedSurfaceAlone) {
+  for (const double noise : {0.3, 3.0}) {
+    Surface surface(16);
+    surface.update(sphere(surface.grid()) + noise * testing::smooth_vector(surface.grid(), 16, 4));
+    MeshRedistribution redistribution(16);
+    const RedistributionReport report = redistribution.redistribute(surface);
+    EXPECT_FALSE(report.moved) << noise;
+    EXPECT_TRUE((redistribution.positions() == surface.positions()).all());
+    EXPECT_EQ(report.energy_after, report.energy_before);
+  }
+}
+
 }  // namespace
 }  // namespace vesiflow::vesicle

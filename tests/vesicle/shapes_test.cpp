@@ -1,6 +1,7 @@
 #include "vesicle/shapes.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -214,6 +215,22 @@ TEST(Shapes, RefuseBadArgumentsWithValueAndRange) {
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(), "reduced_volume = 1.25: must be in (0, 1]");
   }
+}
+
+/// 6 sqrt(pi) V / A^{3/2} -> 2 sqrt(2) q for flat discs, where 1 - q^2 rounds to 1.
+TEST(Shapes, FlatSpheroidsFollowTheirLimit) {
+  for (const double q : {1e-7, 1e-9, 1e-20}) {
+    EXPECT_NEAR(spheroid_reduced_volume(q), 2 * M_SQRT2 * q, 1e-11 * q) << q;
+    EXPECT_NEAR(oblate_aspect_ratio(2 * M_SQRT2 * q), q, 1e-11 * q) << q;
+  }
+}
+
+TEST(Shapes, RefuseNumbersThatWouldOverflow) {
+  const SphereGrid grid(4);
+  EXPECT_THROW(ellipsoid(grid, Vector3::Constant(1e-200)), std::invalid_argument);
+  EXPECT_THROW(ellipsoid(grid, Vector3::Constant(1e200)), std::invalid_argument);
+  const std::vector<Harmonic> term{{2, std::numeric_limits<int>::min(), 0.1}};
+  EXPECT_THROW(perturbed_sphere(grid, term), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "vesicle/spectrum.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,60 @@ TEST(Upsampling, FollowsTheDecay) {
   EXPECT_EQ(choose_upsampling(Spectrum(decaying(32, 1.0, 1))), Upsampling::none);
   EXPECT_EQ(choose_upsampling(Spectrum(decaying(32, 0.55, 1))), Upsampling::three_halves);
   EXPECT_EQ(choose_upsampling(Spectrum(decaying(32, 0.2, 1))), Upsampling::twice);
+}
+
+/// sum_{n >= d} of the fitted law, term by term. For slow decay its largest terms lie far beyond the first.
+TEST(Spectrum, TheTailIsTheSumOfTheLaw) {
+  for (const double rate : {0.03, 0.3, 2.0}) {
+    const Spectrum spectrum(decaying(24, rate, 1));
+    double scale = 0;
+    for (int n = 0; n < 24; ++n) scale += std::pow((1 + n * (n + 1)) * spectrum.amplitude()[n], 2);
+    for (const int degrees : {8, 24, 100}) {
+      double sum = 0;
+      for (double n = degrees; n < 3000; ++n) sum += std::pow(n * (n + 1) * spectrum.extrapolated(n), 2);
+      const double tail = std::sqrt(sum / scale);
+      EXPECT_NEAR(spectrum.laplacian_tail(degrees), tail, 1e-10 * tail) << rate << ' ' << degrees;
+    }
+  }
+}
+
+TEST(Spectrum, OfNothingHasNoTailAndOfNaNIsRefused) {
+  Coefficients zero(8, 1);
+  zero.set_zero();
+  EXPECT_EQ(Spectrum(zero).laplacian_tail(8), 0);
+  EXPECT_EQ(choose_upsampling(Spectrum(zero)), Upsampling::none);
+  zero(0, 3, 1) = {0, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_THROW(Spectrum{zero}, std::invalid_argument);
+}
+
+/// Slow decay over a large mean: degrees up to 32 hold little of the tail, those up to 200 most of it.
+TEST(Resolution, NeverAsksForFewerLatitudesThanDoNotSuffice) {
+  for (const int latitudes : {8, 16, 32}) {
+    Surface surface(latitudes);
+    VectorField x = sphere(surface.grid());
+    const ScalarField noise = testing::smooth_scalar(surface.grid(), latitudes, 3);
+    for (int component = 0; component < 3; ++component) x.col(component) *= 1 + 1e-5 * noise;
+    surface.update(x);
+    for (const double tolerance : {0.5, 0.05, 1e-3, 1e-5}) {
+      const Resolution r = resolution(surface, tolerance);
+      if (!r.sufficient() && r.needed_latitudes > 0) {
+        EXPECT_GT(r.needed_latitudes, latitudes) << tolerance;
+      }
+    }
+  }
+}
+
+TEST(Resolution, DoesNotDependOnTheUnitOfLength) {
+  Surface surface(24);
+  const VectorField x = ellipsoid(surface.grid(), {1, 1, 2});
+  surface.update(x);
+  const Resolution one = resolution(surface);
+  for (const double scale : {1e-8, 1e8}) {
+    surface.update(scale * x);
+    const Resolution other = resolution(surface);
+    EXPECT_NEAR(other.unresolved, one.unresolved, 1e-6 * one.unresolved);
+    EXPECT_EQ(other.needed_latitudes, one.needed_latitudes);
+  }
 }
 
 }  // namespace

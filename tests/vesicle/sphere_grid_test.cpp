@@ -1,6 +1,7 @@
 #include "vesicle/sphere_grid.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -55,6 +56,13 @@ TEST(SphereGrid, RefusesTooFewLatitudes) {
   EXPECT_THROW(SphereGrid(1), std::invalid_argument);
   EXPECT_THROW(SphereGrid(8, 14), std::invalid_argument);
   EXPECT_THROW(SphereGrid(8, 17), std::invalid_argument);
+}
+
+TEST(SphereGrid, RefusesNumbersBeyondItsRange) {
+  for (int latitudes : {std::numeric_limits<int>::min(), -5, 0, 1, 4097, std::numeric_limits<int>::max()})
+    EXPECT_THROW(SphereGrid{latitudes}, std::invalid_argument) << latitudes;
+  for (int longitudes : {-8, 6, 9, 16386, std::numeric_limits<int>::max()})
+    EXPECT_THROW(SphereGrid(4, longitudes), std::invalid_argument) << longitudes;
 }
 
 }  // namespace

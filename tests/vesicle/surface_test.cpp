@@ -151,5 +151,27 @@ TEST(Surface, RefusesBadPositions) {
   EXPECT_THROW(surface.update(VectorField::Zero(x.rows(), 3)), std::domain_error);
 }
 
+TEST(Surface, ARefusedMeshLeavesNothingStale) {
+  Surface surface(8), fresh(8);
+  const VectorField x = ellipsoid(surface.grid(), {1, 1.3, 1.7}), y = prolate(surface.grid(), 0.8);
+  surface.update(x, GeometryDetail::curvature);
+  VectorField broken = x;
+  broken(3, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(surface.update(broken), std::domain_error);
+  EXPECT_TRUE((surface.positions() == x).all());  // looked at before anything is changed
+  EXPECT_THROW(surface.update(VectorField::Zero(x.rows(), 3), GeometryDetail::curvature), std::domain_error);
+  EXPECT_FALSE(surface.geometry().has_curvature());
+  EXPECT_TRUE(std::isnan(surface.area()));
+  EXPECT_TRUE(std::isnan(surface.volume()));
+  surface.update(y);
+  fresh.update(y, GeometryDetail::curvature);
+  EXPECT_EQ(surface.area(), fresh.area());
+  EXPECT_TRUE((surface.mean_curvature() == fresh.mean_curvature()).all());
+}
+
+TEST(Surface, RefusesNumbersOfLatitudesBeyondItsRange) {
+  for (int latitudes : {3, 513, 100000}) EXPECT_THROW(Surface{latitudes}, std::invalid_argument) << latitudes;
+}
+
 }  // namespace
 }  // namespace vesiflow::vesicle

@@ -62,5 +62,17 @@ TEST(TriangleMeshFile, ErrorsNameFileAndLine) {
   EXPECT_NE(complaint_about("m.stl", "", read_triangle_mesh).find(".obj or .off"), std::string::npos);
 }
 
+TEST(TriangleMeshFile, MessagesStayReadableForBinaryFiles) {
+  const std::string garbage(100000, '\xff');
+  const std::string complaint =
+      complaint_about("m.obj", "v 1 2 " + std::string("\0\1", 2) + garbage, read_triangle_mesh);
+  EXPECT_EQ(complaint, "m.obj:1: z = " + std::string(40, '?') + "...: must be a finite number");
+}
+
+TEST(TriangleMeshFile, CountsThatTheFileExceedsAreAnError) {
+  const std::string text = "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  EXPECT_EQ(complaint_about("m.off", text, read_triangle_mesh), "m.off:10: the file goes on after its 3 faces");
+}
+
 }  // namespace
 }  // namespace vesiflow::vesicle

@@ -6,7 +6,7 @@
 namespace vesiflow::vesicle {
 
 /// Adds the force per unit area F_a = -c_a (A - A0)/A0 2 H n, which keeps the total area, to `force`, shape (markers, 3).
-/// @throws std::invalid_argument unless target_area > 0.
+/// @throws std::invalid_argument unless target_area > 0 and stiffness >= 0, both finite.
 void add_area_penalty(const Surface& surface, double stiffness, double target_area, VectorField& force);
 
 /// (c_a/2) (A - A0)^2 / A0, of which the penalty force is minus the derivative.

@@ -46,7 +46,7 @@ class Coefficients {
 
   /// Exponential filter: degree n times exp(-strength (n / (p - 1))^order), of which `strength` = 36 takes the highest
   /// degree p - 1 to round-off (Hou & Li, J. Comput. Phys. 226, 379 (2007)).
-  /// @throws std::invalid_argument unless strength >= 0 and order > 0.
+  /// @throws std::invalid_argument unless strength is finite and >= 0, and order > 0.
   void filter_exponentially(double strength, double order);
 
   /// Inner product sum_n [ Re(conj(a_n^0) b_n^0) + 2 Re sum_{m>0} conj(a_n^m) b_n^m ], over all fields: the integral of

@@ -108,7 +108,8 @@ class Membrane {
 
   MembraneState state() const;
   /// Replaces the state and updates the geometry.
-  /// @throws std::invalid_argument if an array has the wrong size or an area or the volume is not positive.
+  /// @throws std::invalid_argument if an array has the wrong size or an area or the volume is not positive and finite;
+  /// std::domain_error as Surface::update. The membrane's own state is then as it was, and needs update_geometry().
   void restore(const MembraneState& state);
 
  private:

@@ -62,6 +62,7 @@ class TargetAreaUpdate {
   /// One step of Eqs. (33) and (32) with the geometry before the move:
   ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
   /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
+  /// @throws std::invalid_argument for a wrong size, std::domain_error if the result is not finite (target_areas is as it was).
   void apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered, double dt,
              double total_area, ScalarField& target_areas);
 

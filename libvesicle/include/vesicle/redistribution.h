@@ -52,7 +52,8 @@ class MeshRedistribution {
   explicit MeshRedistribution(int latitudes, int kept_degrees = 0);
 
   /// Looks for a better mesh of the surface, which must have the same number of latitudes. There is none (moved = false)
-  /// if E cannot be lowered by a tenth.
+  /// if E cannot be lowered by a tenth, is that of rounding, or if the surface is so poorly resolved that its volume or area would
+  /// change by more than one per cent.
   RedistributionReport redistribute(const Surface& surface);
 
   /// New markers, on the surface (but for report.truncation) given to the last redistribute(); that surface's own if it did not move.

@@ -25,7 +25,7 @@ struct Placement {
 
 VectorField sphere(const SphereGrid& grid, const Placement& placement = {});
 
-/// Semi-axes in the given proportions, all > 0, e.g. (3, 3, 1) or (1, 2, 4); scaled to the effective radius.
+/// Semi-axes in the given proportions, all in [1e-100, 1e100], e.g. (3, 3, 1) or (1, 2, 4); scaled to the effective radius.
 VectorField ellipsoid(const SphereGrid& grid, const Vector3& proportions, const Placement& placement = {});
 
 /// Spheroid with polar over equatorial semi-axis `aspect_ratio` > 0: prolate above 1, oblate below.

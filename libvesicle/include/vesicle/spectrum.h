@@ -15,7 +15,7 @@ inline constexpr double default_resolution_tolerance = 0.05;
 /// How the energy of fields on the sphere is spread over the degrees of their expansion, and how fast it falls.
 class Spectrum {
  public:
-  /// @throws std::invalid_argument for fewer than four degrees.
+  /// @throws std::invalid_argument for fewer than four degrees or an energy that is not finite.
   explicit Spectrum(const Coefficients& coefficients);
 
   int degrees() const { return static_cast<int>(amplitude_.size()); }
@@ -32,7 +32,7 @@ class Spectrum {
 
   /// Share of the surface Laplacian that degrees from `degrees` on would add by that law:
   ///   sqrt(sum_{n >= degrees} [n (n+1) a_n]^2 / sum_{n < p} [(1 + n (n+1)) a_n]^2).
-  /// Infinite if the spectrum does not decay.
+  /// Infinite if the spectrum does not decay, 0 if it is zero.
   double laplacian_tail(double degrees) const;
 
  private:

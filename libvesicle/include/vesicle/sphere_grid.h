@@ -13,10 +13,14 @@ namespace vesiflow::vesicle {
 /// the geometry near the poles inherits the relative accuracy of sin(theta).
 class SphereGrid {
  public:
+  /// Room for the finer grids on which products of the largest Surface are formed.
+  static constexpr int largest_latitudes = 4096;
+  static constexpr int largest_longitudes = 16384;
+
   /// N_phi = 2 latitudes.
-  /// @throws std::invalid_argument unless latitudes >= 2.
+  /// @throws std::invalid_argument unless 2 <= latitudes <= 4096.
   explicit SphereGrid(int latitudes);
-  /// @throws std::invalid_argument unless latitudes >= 2 and longitudes is even and >= 2 latitudes.
+  /// @throws std::invalid_argument unless also longitudes is even, >= 2 latitudes and <= 16384.
   SphereGrid(int latitudes, int longitudes);
 
   int latitudes() const { return latitudes_; }

@@ -17,7 +17,10 @@ namespace vesiflow::vesicle {
 /// they are first asked for. Lap H is a matter of its own, see LaplaceBeltrami.
 class Surface {
  public:
-  /// @throws std::invalid_argument unless there are at least 4 latitudes.
+  /// Up to here the transforms are tested.
+  static constexpr int largest_latitudes = 512;
+
+  /// @throws std::invalid_argument unless 4 <= latitudes <= 512.
   explicit Surface(int latitudes);
   explicit Surface(const SphereGrid& grid);
   ~Surface();
@@ -27,7 +30,8 @@ class Surface {
   /// Takes new marker positions, shape (markers, 3). Nothing below is meaningful before the first call. Asking here for curvatures
   /// that will be needed is a little faster than asking for them later.
   /// @throws std::invalid_argument for a wrong size, std::domain_error for positions that are not finite
-  /// (with the first such marker) or a degenerate mesh (see SurfaceGeometry).
+  /// (with the first such marker) or a degenerate mesh (see SurfaceGeometry). After a degenerate mesh nothing below is meaningful
+  /// until an update succeeds, area and volume are NaN; after the other errors all is as it was.
   void update(const VectorField& positions, GeometryDetail detail = GeometryDetail::first_form);
 
   const SphereGrid& grid() const { return grid_; }

@@ -33,8 +33,8 @@ class TensionForce {
 
   const TensionParameters& parameters() const { return parameters_; }
 
-  /// Tension at the markers for target cell areas of shape (markers), all > 0.
-  /// @throws std::invalid_argument for a wrong number of target areas.
+  /// Tension at the markers for target cell areas of shape (markers).
+  /// @throws std::invalid_argument for a wrong number of target areas, or one that is not > 0.
   void evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const;
 
   /// Adds F_sigma to `force`, shape (markers, 3), force per unit area.
