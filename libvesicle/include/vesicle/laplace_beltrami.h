@@ -36,8 +36,8 @@ struct LaplacianOptions {
 /// Lap_Gamma of scalar fields at the markers of surfaces on one grid. Nothing allocates after the first call, but where
 /// Upsampling::automatic meets a factor for the first time. One thread at a time.
 ///
-/// Max error of Lap H, N = 32, 64, 128, cartesian, twice, not truncated: 7.5e-3, 6.6e-9, 3e-8 on the 1:2:4 ellipsoid (paper: 4.2,
-/// 0.23, 0.22), see docs/vesicle.md.
+/// Max error of Lap H, N = 32, 64, 128, cartesian, twice, not truncated: 7.5e-3, 5.0e-9, 1.7e-8 on the 1:2:4 ellipsoid (paper: 4.2,
+/// 0.23, 0.22), see validation/table1.md.
 class LaplaceBeltrami {
  public:
   explicit LaplaceBeltrami(const SphereGrid& grid, const LaplacianOptions& options = {});
