@@ -26,9 +26,7 @@ std::array<int, 3> point_extent(const Grid& grid, Centring centring) {
 
 std::array<int, 3> unknown_extent(const Grid& grid, Centring centring) {
   std::array<int, 3> extent = grid.cells;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (is_face_normal(centring, axis)) --extent[axis];
-  }
+  for (int axis = 0; axis < 3; ++axis) extent[axis] -= first_unknown(grid, centring, axis);
   return extent;
 }
 

@@ -37,18 +37,23 @@ class LowerTriangle {
   SuiteSparse_long count_ = 0;
 };
 
+double end_diagonal(const EllipticProblem& problem, int axis) {
+  if (problem.boundary == BoundaryCondition::neumann) return 1.0;
+  return is_face_normal(problem.centring(), axis) ? 2.0 : 3.0;
+}
+
 void assemble(const EllipticProblem& problem, cholmod_sparse& matrix) {
   const auto n = problem.extent();
   const std::array<SuiteSparse_long, 3> stride{1, n[0], static_cast<SuiteSparse_long>(n[0]) * n[1]};
   std::array<double, 3> scale{};
-  for (int axis = 0; axis < 3; ++axis) scale[axis] = problem.mu / std::pow(problem.grid.spacing(axis), 2);
+  for (int axis = 0; axis < 3; ++axis) scale[axis] = problem.mu.value() / std::pow(problem.grid.spacing(axis), 2);
   LowerTriangle entries(matrix);
   std::array<int, 3> index{};
   for (std::size_t column = 0; column < matrix.ncol; ++column) {
     double diagonal = problem.alpha;
     for (int axis = 0; axis < 3; ++axis) {
       const bool at_end = index[axis] == 0 || index[axis] == n[axis] - 1;
-      diagonal += scale[axis] * (at_end ? problem.end_diagonal(axis) : 2.0);
+      diagonal += scale[axis] * (at_end ? end_diagonal(problem, axis) : 2.0);
     }
     const auto here = static_cast<SuiteSparse_long>(column);
     entries.begin_column(here);
@@ -116,7 +121,7 @@ std::size_t CholmodSolver::estimate_memory(const EllipticProblem& problem) {
 void CholmodSolver::do_update(const EllipticProblem& problem) {
   const std::size_t n = factored_unknowns(problem);
   const bool analysed = workspace_ && problem.same_structure(this->problem()) && workspace_->matrix->nrow == n;
-  if (analysed && problem.alpha == this->problem().alpha && problem.mu == this->problem().mu) return;
+  if (analysed && problem.alpha == this->problem().alpha && problem.mu.value() == this->problem().mu.value()) return;
   if (!analysed) {
     const auto bytes = static_cast<double>(estimate_memory(problem));
     if (bytes > options_.memory_limit) {
@@ -136,7 +141,9 @@ void CholmodSolver::do_update(const EllipticProblem& problem) {
   w.check("factorisation");
 }
 
-SolveReport CholmodSolver::do_solve(ConstView rhs, View x) {
+SolveReport CholmodSolver::do_solve(ConstBlocks rhs_blocks, Blocks x_blocks) {
+  const ConstView rhs = rhs_blocks[0];
+  const View x = x_blocks[0];
   Workspace& w = *workspace_;
   const auto n = problem().extent();
   const std::size_t factored = w.matrix->nrow;
@@ -149,13 +156,13 @@ SolveReport CholmodSolver::do_solve(ConstView rhs, View x) {
   SolveReport report;
   if (problem().has_nullspace()) {
     for_each_row([&](int j, int k, std::size_t) {
-      for (int i = 0; i < n[0]; ++i) report.removed_mean += rhs(i, j, k) / count;
+      for (int i = 0; i < n[0]; ++i) report.removed_mean[0] += rhs(i, j, k) / count;
     });
   }
   auto* b = static_cast<double*>(w.rhs->x);
   for_each_row([&](int j, int k, std::size_t start) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(n[0]) && start + i < factored; ++i) {
-      b[start + i] = rhs.row(j, k)[i] - report.removed_mean;
+      b[start + i] = rhs.row(j, k)[i] - report.removed_mean[0];
     }
   });
   cholmod_l_solve2(CHOLMOD_A, w.factor, w.rhs, nullptr, &w.solution, nullptr, &w.work_y, &w.work_e, &w.common);

@@ -21,7 +21,7 @@ class CholmodSolver final : public EllipticSolver {
   struct Workspace;
 
   void do_update(const EllipticProblem& problem) override;
-  SolveReport do_solve(ConstView rhs, View x) override;
+  SolveReport do_solve(ConstBlocks rhs, Blocks x) override;
 
   CholmodOptions options_;
   std::unique_ptr<Workspace> workspace_;

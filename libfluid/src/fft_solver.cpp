@@ -12,13 +12,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+
+#include "message.h"
 
 namespace vesiflow::fluid {
 namespace {
 
 Basis basis(const EllipticProblem& problem, int axis) {
   if (problem.boundary == BoundaryCondition::neumann) return Basis::cosine_cells;
-  return is_face_normal(problem.centring, axis) ? Basis::sine_points : Basis::sine_cells;
+  return is_face_normal(problem.centring(), axis) ? Basis::sine_points : Basis::sine_cells;
 }
 
 // Eigenvalues of the one-dimensional -Laplacian, (2 sin(pi m / 2N) / h)^2; m counts from 0 for cosines, else
@@ -36,47 +39,43 @@ std::vector<double> eigenvalues(const EllipticProblem& problem, int axis) {
 
 }  // namespace
 
-FftSolver::Scratch::Scratch(const std::array<int, 3>& extent, std::ptrdiff_t row_stride)
+FftScalarSolver::Scratch::Scratch(const std::array<int, 3>& extent, std::ptrdiff_t row_stride)
     : transform(allocate_aligned(TransformPlan::scratch_size({extent[0], extent[1]}))),
       slab(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[2])),
       factors(allocate_aligned(static_cast<std::size_t>(row_stride) * extent[2])),
       column(extent[2]) {}
 
-FftSolver::FftSolver(const EllipticProblem& problem) : EllipticSolver(problem) {
+FftScalarSolver::FftScalarSolver(const EllipticProblem& problem)
+    : extent_(problem.extent()), row_stride_(padded(extent_[0])) {
+  const std::array<int, 2> plane{extent_[0], extent_[1]};
+  const std::array<Basis, 2> bases{basis(problem, 0), basis(problem, 1)};
+  forward_ = std::make_unique<TransformPlan>(plane, bases, Direction::forward);
+  backward_ = std::make_unique<TransformPlan>(plane, bases, Direction::backward);
+  eigenvalues_ = {eigenvalues(problem, 0), eigenvalues(problem, 1)};
+  normalisation_ =
+      1.0 / (LineTransform::pair_factor(bases[0], plane[0]) * LineTransform::pair_factor(bases[1], plane[1]));
+  const double h = problem.grid.spacing(2);
+  z_coupling_ = 1.0 / (h * h);
+  const bool neumann = problem.boundary == BoundaryCondition::neumann;
+  z_end_diagonal_ = neumann ? 1.0 : is_face_normal(problem.centring(), 2) ? 2.0 : 3.0;
   update(problem);
 }
 
-std::size_t FftSolver::estimate_memory(const EllipticProblem& problem, int threads) {
+std::size_t FftScalarSolver::estimate_memory(const EllipticProblem& problem, int threads) {
   const auto n = problem.extent();
   const auto slabs = static_cast<std::size_t>(padded(n[0]) * 2 * n[2] + n[2]);
   return sizeof(double) * (threads * (TransformPlan::scratch_size({n[0], n[1]}) + slabs) + n[0] + n[1]);
 }
 
-void FftSolver::do_update(const EllipticProblem& problem) {
+void FftScalarSolver::update(const EllipticProblem& problem) {
   alpha_ = problem.alpha;
-  mu_ = problem.mu;
+  mu_ = problem.mu.value();
   nullspace_ = problem.has_nullspace();
-  const bool planned = forward_ != nullptr && problem.same_structure(this->problem());
-  if (!planned) {
-    extent_ = problem.extent();
-    row_stride_ = padded(extent_[0]);
-    const std::array<int, 2> plane{extent_[0], extent_[1]};
-    const std::array<Basis, 2> bases{basis(problem, 0), basis(problem, 1)};
-    forward_ = std::make_unique<TransformPlan>(plane, bases, Direction::forward);
-    backward_ = std::make_unique<TransformPlan>(plane, bases, Direction::backward);
-    eigenvalues_ = {eigenvalues(problem, 0), eigenvalues(problem, 1)};
-    normalisation_ =
-        1.0 / (LineTransform::pair_factor(bases[0], plane[0]) * LineTransform::pair_factor(bases[1], plane[1]));
-    const double h = problem.grid.spacing(2);
-    z_coupling_ = 1.0 / (h * h);
-    z_end_diagonal_ = problem.end_diagonal(2);
-    scratch_.clear();
-  }
   while (static_cast<int>(scratch_.size()) < omp_get_max_threads()) scratch_.emplace_back(extent_, row_stride_);
 }
 
-SolveReport FftSolver::do_solve(ConstView rhs, View x) {
-  SolveReport report;
+double FftScalarSolver::solve(ConstView rhs, View x) {
+  double removed_mean = 0.0;
   const int threads = std::min(static_cast<int>(scratch_.size()), omp_get_max_threads());
 #pragma omp parallel num_threads(threads)
   {
@@ -87,7 +86,7 @@ SolveReport FftSolver::do_solve(ConstView rhs, View x) {
     }
 #pragma omp for schedule(static)
     for (int j = 0; j < extent_[1]; ++j) {
-      if (nullspace_ && j == 0) report.removed_mean = solve_singular_column(x, scratch);
+      if (nullspace_ && j == 0) removed_mean = solve_singular_column(x, scratch);
       solve_slab(x, j, scratch);
     }
 #pragma omp for schedule(static)
@@ -95,13 +94,13 @@ SolveReport FftSolver::do_solve(ConstView rhs, View x) {
       backward_->execute(x.row(0, k), x.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
     }
   }
-  return report;
+  return removed_mean;
 }
 
 // Elimination along z for all modes of x at one mode j of y:
 //   -s x_{k-1} + d_k x_k - s x_{k+1} = b_k,  s = mu / h_z^2,  d_k = alpha + mu (l_x + l_y) + s (2, or the
 //   end's value).
-void FftSolver::solve_slab(View x, int j, Scratch& scratch) const {
+void FftScalarSolver::solve_slab(View x, int j, Scratch& scratch) const {
   const int nx = extent_[0];
   const int nz = extent_[2];
   const double s = mu_ * z_coupling_;
@@ -146,7 +145,7 @@ void FftSolver::solve_slab(View x, int j, Scratch& scratch) const {
 // The constant mode of x and y in a problem with a nullspace, where elimination would end with a zero pivot.
 // With the mean taken out of b, s (x_{k+1} - x_k) is minus the sum of b below, and the mean of x is zero.
 // Leaves the solution in scratch.column for solve_slab, and returns the mean of the right-hand side.
-double FftSolver::solve_singular_column(ConstView x, Scratch& scratch) const {
+double FftScalarSolver::solve_singular_column(ConstView x, Scratch& scratch) const {
   const int nz = extent_[2];
   const double s = mu_ * z_coupling_;
   double mean = 0.0;
@@ -163,6 +162,46 @@ double FftSolver::solve_singular_column(ConstView x, Scratch& scratch) const {
   }
   for (double& v : scratch.column) v -= sum / nz;
   return mean;
+}
+
+FftSolver::FftSolver(const EllipticProblem& problem, const FftOptions& options)
+    : EllipticSolver(problem), options_(options) {
+  update(problem);
+}
+
+std::size_t FftSolver::estimate_memory(const EllipticProblem& problem, int threads) {
+  std::size_t bytes = 0;
+  for (int block = 0; block < problem.blocks(); ++block) {
+    bytes += FftScalarSolver::estimate_memory(problem.component(block), threads);
+  }
+  return bytes;
+}
+
+void FftSolver::do_update(const EllipticProblem& problem) {
+  if (problem.form != EllipticForm::laplacian || !problem.mu.is_constant()) {
+    throw std::invalid_argument(message("elliptic solver: 'fft' cannot solve the ", vesiflow::fluid::name(problem.form),
+                                        " form with ", problem.mu.is_constant() ? "constant" : "variable",
+                                        " viscosity; use 'pcg' (which can take 'fft' as its preconditioner), "
+                                        "'cholmod' or 'auto'"));
+  }
+  const bool planned = !blocks_.empty() && problem.same_structure(this->problem());
+  if (!planned) blocks_.clear();
+  for (int block = 0; block < problem.blocks(); ++block) {
+    const EllipticProblem component = problem.component(block);
+    if (planned) {
+      blocks_[block]->update(component);
+    } else {
+      blocks_.push_back(std::make_unique<FftScalarSolver>(component));
+    }
+  }
+}
+
+SolveReport FftSolver::do_solve(ConstBlocks rhs, Blocks x) {
+  SolveReport report;
+  for (int block = 0; block < x.count(); ++block) {
+    report.removed_mean[block] = blocks_[block]->solve(rhs[block], x[block]);
+  }
+  return report;
 }
 
 }  // namespace vesiflow::fluid

@@ -13,10 +13,14 @@
 
 namespace vesiflow::fluid {
 
-class FftSolver final : public EllipticSolver {
+// The solver of one scalar problem with constant coefficients.
+class FftScalarSolver {
  public:
-  explicit FftSolver(const EllipticProblem& problem);
-  std::string name() const override { return "fft"; }
+  explicit FftScalarSolver(const EllipticProblem& problem);
+  // For another alpha, mu or number of threads.
+  void update(const EllipticProblem& problem);
+  // Returns the mean that was removed from the right-hand side.
+  double solve(ConstView rhs, View x);
   static std::size_t estimate_memory(const EllipticProblem& problem, int threads);
 
  private:
@@ -28,8 +32,6 @@ class FftSolver final : public EllipticSolver {
     std::vector<double> column;
   };
 
-  void do_update(const EllipticProblem& problem) override;
-  SolveReport do_solve(ConstView rhs, View x) override;
   void solve_slab(View x, int j, Scratch& scratch) const;
   double solve_singular_column(ConstView x, Scratch& scratch) const;
 
@@ -44,6 +46,21 @@ class FftSolver final : public EllipticSolver {
   bool nullspace_ = false;
   std::unique_ptr<TransformPlan> forward_, backward_;
   std::vector<Scratch> scratch_;
+};
+
+class FftSolver final : public EllipticSolver {
+ public:
+  // Throws std::invalid_argument for a variable coefficient or the stress form.
+  FftSolver(const EllipticProblem& problem, const FftOptions& options);
+  std::string name() const override { return "fft"; }
+  static std::size_t estimate_memory(const EllipticProblem& problem, int threads);
+
+ private:
+  void do_update(const EllipticProblem& problem) override;
+  SolveReport do_solve(ConstBlocks rhs, Blocks x) override;
+
+  FftOptions options_;
+  std::vector<std::unique_ptr<FftScalarSolver>> blocks_;
 };
 
 }  // namespace vesiflow::fluid

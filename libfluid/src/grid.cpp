@@ -8,8 +8,9 @@
 
 namespace vesiflow::fluid {
 
-Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3>& cells_)
-    : lower(lower_), upper(upper_), cells(cells_) {
+Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3>& cells_,
+           const std::array<bool, 3>& periodic_)
+    : lower(lower_), upper(upper_), cells(cells_), periodic(periodic_) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(lower[axis]) || !std::isfinite(upper[axis]) || !(upper[axis] > lower[axis])) {
       throw std::invalid_argument(message("grid: axis ", axis, " runs from ", lower[axis], " to ", upper[axis],

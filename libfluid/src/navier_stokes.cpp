@@ -40,8 +40,6 @@ FluidParameters checked(const FluidParameters& parameters) {
   return parameters;
 }
 
-constexpr std::array<Centring, 3> face_centrings{Centring::face_x, Centring::face_y, Centring::face_z};
-
 EllipticProblem velocity_problem(const Grid& grid, int component, double alpha, double mu) {
   return {grid, face_centrings[component], BoundaryCondition::dirichlet, alpha, mu};
 }

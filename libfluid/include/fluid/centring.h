@@ -23,6 +23,9 @@ struct FaceZ {
   static constexpr Centring centring = Centring::face_z;
 };
 
+// The centrings of the components of a velocity.
+inline constexpr std::array<Centring, 3> face_centrings{Centring::face_x, Centring::face_y, Centring::face_z};
+
 // "cell", "face_x", ... for messages.
 const char* name(Centring centring);
 
@@ -32,11 +35,17 @@ constexpr bool is_face_normal(Centring centring, int axis) {
   return static_cast<int>(centring) == axis + 1;
 }
 
-// Number of points along each axis: one per cell, and one more along the normal of a face.
+// Number of points along each axis: one per cell, and one more along the normal of a face (on a periodic axis the last
+// of these is the first again).
 std::array<int, 3> point_extent(const Grid& grid, Centring centring);
 
-// Number of unknowns along each axis: the points that do not lie on a wall.
+// Number of unknowns along each axis: the points that do not lie on a wall, each counted once.
 std::array<int, 3> unknown_extent(const Grid& grid, Centring centring);
+
+// The index of the first unknown along an axis: 1 along the normal of a face between walls, else 0.
+constexpr int first_unknown(const Grid& grid, Centring centring, int axis) {
+  return is_face_normal(centring, axis) && !grid.periodic[axis] ? 1 : 0;
+}
 
 // Position of point (i, j, k); indices outside the extent give the positions of ghosts.
 inline Vector3 point_position(const Grid& grid, Centring centring, int i, int j, int k) {

@@ -1,4 +1,4 @@
-// The scalar elliptic problem that solvers solve: what is to be solved, apart from how.
+// The elliptic problem that solvers solve: what is to be solved, apart from how.
 #pragma once
 
 #include <array>
@@ -7,51 +7,72 @@
 #include "fluid/centring.h"
 #include "fluid/grid.h"
 #include "fluid/view.h"
+#include "fluid/viscosity.h"
 
 namespace vesiflow::fluid {
 
+// The condition on all walls. Periodic axes have none.
 enum class BoundaryCondition { dirichlet, neumann };
 
-// "dirichlet" or "neumann", for messages.
-const char* name(BoundaryCondition boundary);
+// What is applied to x beside alpha: -div(mu grad x), each component by itself, or the coupled viscous operator
+// -div(mu (grad x + grad x^T)) of a vector.
+enum class EllipticForm { laplacian, stress };
 
-// alpha x - mu Lap x = b on the unknowns of a centring, with the second-order 7-point Laplacian and one
-// homogeneous condition on all walls (inhomogeneous data belongs to b; see WallVelocity::add_diffusion).
+// "dirichlet", "laplacian", ... for messages.
+const char* name(BoundaryCondition boundary);
+const char* name(EllipticForm form);
+
+// alpha x - div(mu grad x) = b for a scalar x on a centring or for a vector x on the faces, or
+// alpha x - div(mu (grad x + grad x^T)) = b for a vector on the faces; on the unknowns (the points not on walls), with
+// second-order differences between neighbours (7 points if mu is a number, and then for the laplacian form
+// -mu Lap x), and homogeneous conditions on all walls (inhomogeneous data belongs to b; see WallVelocity).
 //
 // Dirichlet: x = 0 on the walls. Along the normal axis of a face centring these are points of the grid; along
 // the others the wall is half a cell away and the ghost is -x. Neumann: the ghost is x; for cell centring
 // only.
 //
-// With alpha = 0 and Neumann conditions the constants are the nullspace. b is then made compatible by
-// subtracting its mean, and the mean of the solution is zero: any solver does both, and the system is never
-// changed otherwise.
+// With alpha = 0, and Neumann conditions or no walls at all, the constants are the nullspace, of each component by
+// itself. b is then made compatible by subtracting its mean, and the mean of the solution is zero: any solver does
+// both, and the system is never changed otherwise.
+//
+// The operator is symmetric in the sum over unknowns, and positive but for the nullspace.
 struct EllipticProblem {
-  // Throws std::invalid_argument, naming the value, unless alpha >= 0 and mu > 0 are finite and the condition
-  // suits the centring.
-  EllipticProblem(const Grid& grid, Centring centring, BoundaryCondition boundary, double alpha, double mu);
+  // A scalar. Throws std::invalid_argument, naming the value, unless alpha >= 0 and a constant mu > 0 are finite, a
+  // field mu is on the same grid, and the condition suits the centring. The values of a field are checked by the solver.
+  EllipticProblem(const Grid& grid, Centring centring, BoundaryCondition boundary, double alpha, Viscosity mu);
+  // A vector at the faces, zero on walls. Throws likewise.
+  static EllipticProblem velocity(const Grid& grid, EllipticForm form, double alpha, Viscosity mu);
 
   Grid grid;
-  Centring centring;
+  EllipticForm form = EllipticForm::laplacian;
   BoundaryCondition boundary;
   double alpha;
-  double mu;
+  Viscosity mu;
 
-  std::array<int, 3> extent() const { return unknown_extent(grid, centring); }
-  std::size_t unknowns() const;
-  bool has_nullspace() const { return alpha == 0.0 && boundary == BoundaryCondition::neumann; }
-  // Same unknowns and stencil; alpha and mu may differ.
+  // Arrays that make up x, and the centring and shape of each.
+  int blocks() const { return is_vector_ ? 3 : 1; }
+  Centring centring(int block = 0) const { return is_vector_ ? face_centrings[block] : centring_; }
+  std::array<int, 3> extent(int block = 0) const { return unknown_extent(grid, centring(block)); }
+  std::size_t unknowns() const;  // of all blocks
+  std::size_t unknowns(int block) const;
+  bool has_nullspace() const { return alpha == 0.0 && (boundary == BoundaryCondition::neumann || !grid.has_walls()); }
+  // Same unknowns and operator; alpha and mu may differ, and mu be a number in one and a field in the other.
   bool same_structure(const EllipticProblem& other) const;
 
-  // Coefficient of x itself, divided by 1 / h^2, in the one-dimensional -Laplacian at the first and the last
-  // unknown of an axis: 2 next to Dirichlet points, 3 for a Dirichlet wall half a cell away, 1 for a Neumann
-  // wall.
-  double end_diagonal(int axis) const;
+  // One component of a vector problem of laplacian form, as a scalar problem.
+  EllipticProblem component(int block) const;
+  // The problem of laplacian form with a constant coefficient, for the same unknowns: the reference of preconditioners.
+  EllipticProblem with_constant_viscosity(double value) const;
+
+ private:
+  Centring centring_;
+  bool is_vector_ = false;
 };
 
-// y = alpha x - mu Lap x. x and y have the shape of the problem and must not overlap.
-void apply(const EllipticProblem& problem, ConstView x, View y);
+// y = A x. x and y have the shapes of the problem and must not overlap. Allocates one or four arrays, for the ghosts.
+void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y);
 
-// max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace. Allocates one array.
-double relative_residual(const EllipticProblem& problem, ConstView rhs, ConstView x);
+// max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace. Allocates.
+double relative_residual(const EllipticProblem& problem, ConstBlocks rhs, ConstBlocks x);
 
 }  // namespace vesiflow::fluid

@@ -1,7 +1,9 @@
 // Solvers of EllipticProblem behind one interface, and the factory that makes them.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,9 +17,9 @@ namespace vesiflow::fluid {
 struct SolveReport {
   int iterations = 0;              // zero for direct solvers
   bool converged = true;           // direct solvers always are
-  std::optional<double> residual;  // relative, if the solver computes it; see also relative_residual()
-  double removed_mean = 0.0;       // what was subtracted from b to make it compatible (problems with a nullspace)
-  double seconds = 0.0;            // wall time of this solve
+  std::optional<double> residual;  // |b - A x| / |b| (2-norms), if the solver computes it; see also relative_residual()
+  std::array<double, 3> removed_mean{};  // per block: subtracted from b to make it compatible (if there is a nullspace)
+  double seconds = 0.0;                  // wall time of this solve
 };
 
 // One problem at a time: update() takes it, solve() solves it for as many right-hand sides as wanted.
@@ -30,39 +32,90 @@ class EllipticSolver {
   EllipticSolver& operator=(const EllipticSolver&) = delete;
 
   // Plans or factors for a problem; may allocate. Cheap if the problem is the same. If only alpha or mu
-  // differ, "fft" just notes the numbers and "cholmod" factors again with the ordering it has.
+  // differ, "fft" just notes the numbers and "cholmod" factors again with the ordering it has. The values of a field
+  // mu may have changed since the last time. Throws std::invalid_argument, with the place, if one is not finite and > 0.
   void update(const EllipticProblem& problem);
 
-  // Solves for x. rhs and x have the shape of problem().extent(); they may be the same array but not overlap
-  // otherwise. Does not allocate (but FFTW does within "fft", for
-  // a number of cells with a prime factor above 31). Throws std::invalid_argument for a wrong shape and std::runtime_error if
-  // the solution is not finite, which happens exactly if rhs is not (or overflows).
-  SolveReport solve(ConstView rhs, View x);
+  // Solves for x. rhs and x have one view per block of the problem, each of the shape of problem().extent(block); they
+  // may be the same arrays but not overlap otherwise. Iterative solvers start from x, unless it is rhs: then from zero.
+  // Does not allocate (but FFTW does within "fft", for a number of cells with a prime factor above 31). Throws
+  // std::invalid_argument for a wrong shape and std::runtime_error if the solution is not finite, which happens
+  // exactly if rhs (or the x to start from) is not, or overflows. An iteration that has not converged is reported.
+  SolveReport solve(ConstBlocks rhs, Blocks x);
 
   const EllipticProblem& problem() const { return problem_; }
+  // Of the backend: "fft", "pcg+cholmod", ...
   virtual std::string name() const = 0;
+  // Wall seconds spent in update() since construction, and how often a factorisation was done (0 for "fft").
+  double update_seconds() const { return update_seconds_; }
+  virtual int factorisations() const { return 0; }
 
  protected:
   explicit EllipticSolver(const EllipticProblem& problem) : problem_(problem) {}
+  // Of mu, at the last update.
+  const Viscosity::Range& viscosity_range() const { return viscosity_range_; }
 
  private:
   virtual void do_update(const EllipticProblem& problem) = 0;
-  virtual SolveReport do_solve(ConstView rhs, View x) = 0;
+  virtual SolveReport do_solve(ConstBlocks rhs, Blocks x) = 0;
 
   EllipticProblem problem_;
+  Viscosity::Range viscosity_range_{};
+  double update_seconds_ = 0.0;
 };
 
-// Fast sine and cosine transforms in x and y with the eigenvalues of the discrete operator, and a tridiagonal
-// solve in z. O(n log n), exact to round-off. The same bits for any number of threads.
-struct FftOptions {};
+// Fast sine, cosine and Fourier transforms in x and y with the eigenvalues of the discrete operator, and a tridiagonal
+// solve in z. O(n log n), exact to round-off. For constant mu and the laplacian form. The same bits for any number of
+// threads.
+struct FftOptions {
+  enum class Transforms {
+    pairs_of_lines,  // complex FFTs of pairs of real lines, plane by plane in cache
+    fftw_r2r         // FFTW's three-dimensional real-to-real plan as it is: the reference to check and time against
+  };
+  Transforms transforms = Transforms::pairs_of_lines;
+};
 
-// Sparse Cholesky factorisation (SuiteSparse CHOLMOD, supernodal). Independent of FFTW; for small grids.
-// Needs the build option VESIFLOW_WITH_CHOLMOD.
+// When the factor of a matrix that has changed is computed anew: at an update() if it is at least the every-th since
+// the last factorisation (0: never again), and alpha or mu somewhere differ from the factored ones by more than the
+// fraction `change`. The default keeps the factor exact.
+struct RefactorPolicy {
+  std::int64_t every = 1;
+  double change = 0.0;
+};
+
+// Sparse Cholesky factorisation (SuiteSparse CHOLMOD, supernodal). Independent of FFTW; any coefficients, both forms; for
+// small grids. With a policy that lets the factor lag, the solution is still that of the problem: the lagged factor then
+// preconditions conjugate gradients (PcgOptions with their default tolerance). Needs the build option VESIFLOW_WITH_CHOLMOD.
 struct CholmodOptions {
   double memory_limit = 2e9;  // bytes; problems whose factor is estimated larger are refused
+  double time_limit = 600.0;  // seconds; problems whose factorisation is estimated to take longer are refused
+  RefactorPolicy refactor;
 };
 
-using SolverOptions = std::variant<FftOptions, CholmodOptions>;
+// Conjugate gradients for any problem, preconditioned by another solver for the same unknowns: "fft" solves the laplacian
+// form with a constant reference viscosity (the number of iterations then depends on the ratio of viscosities, not on the
+// grid), "cholmod" the problem itself with a factor that may lag.
+struct PcgOptions {
+  double tolerance = 1e-10;  // of the residual, relative to the right-hand side (2-norms)
+  int max_iterations = 1000;
+  std::variant<FftOptions, CholmodOptions> preconditioner = FftOptions{};
+  double reference_viscosity = 0.0;  // for "fft"; 0: the geometric mean of the smallest and the largest
+};
+
+// Chosen by problem and size: see choose_solver().
+struct AutoOptions {
+  double tolerance = 1e-10;  // if the choice is iterative
+  double memory_limit = 2e9;
+};
+
+using SolverOptions = std::variant<FftOptions, CholmodOptions, PcgOptions, AutoOptions>;
+
+// What "auto" takes for a problem, and why in words.
+struct SolverChoice {
+  SolverOptions options;
+  std::string reason;
+};
+SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& options);
 
 // A solver updated to the problem. Throws std::invalid_argument, naming the alternatives, for what the build
 // or the backend cannot do.

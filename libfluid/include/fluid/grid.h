@@ -1,4 +1,4 @@
-// The uniform staggered (MAC) grid of a box with walls on its six sides.
+// The uniform staggered (MAC) grid of a box, each axis of which ends at two walls or is periodic.
 #pragma once
 
 #include <array>
@@ -19,17 +19,20 @@ struct Grid {
 
   // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and
   // cells >= min_cells.
-  Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells);
+  Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells,
+       const std::array<bool, 3>& periodic = {false, false, false});
 
   Vector3 lower;
   Vector3 upper;
   std::array<int, 3> cells;
+  std::array<bool, 3> periodic;  // per axis: what leaves at one end comes in at the other; else there are walls
 
   double length(int axis) const { return upper[axis] - lower[axis]; }
   double spacing(int axis) const { return length(axis) / cells[axis]; }
   double min_spacing() const;
   double cell_volume() const { return spacing(0) * spacing(1) * spacing(2); }
   std::size_t cell_count() const;
+  bool has_walls() const { return !(periodic[0] && periodic[1] && periodic[2]); }
 
   friend bool operator==(const Grid&, const Grid&) = default;
 };

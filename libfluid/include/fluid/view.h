@@ -26,4 +26,35 @@ struct BasicView {
 using View = BasicView<double>;
 using ConstView = BasicView<const double>;
 
+// The arrays that make up one vector of unknowns: a single view for a scalar, three for a velocity. Views and arrays
+// of three views convert to it.
+template <class T>
+class BasicBlocks {
+  using Mutable = std::remove_const_t<T>;
+
+ public:
+  BasicBlocks(const BasicView<T>& view) : views_{view}, count_(1) {}
+  BasicBlocks(const std::array<BasicView<T>, 3>& views) : views_(views), count_(3) {}
+  BasicBlocks(const BasicView<Mutable>& view) requires(std::is_const_v<T>) : views_{view}, count_(1) {}
+  BasicBlocks(const std::array<BasicView<Mutable>, 3>& views) requires(std::is_const_v<T>)
+      : views_{views[0], views[1], views[2]}, count_(3) {}
+  template <class U>
+  BasicBlocks(const BasicBlocks<U>& blocks) requires(std::is_const_v<T>&& std::is_same_v<U, Mutable>)
+      : count_(blocks.count()) {
+    for (int b = 0; b < count_; ++b) views_[b] = blocks[b];
+  }
+
+  int count() const { return count_; }
+  const BasicView<T>& operator[](int block) const { return views_[block]; }
+  const BasicView<T>* begin() const { return views_.data(); }
+  const BasicView<T>* end() const { return views_.data() + count_; }
+
+ private:
+  std::array<BasicView<T>, 3> views_{};
+  int count_;
+};
+
+using Blocks = BasicBlocks<double>;
+using ConstBlocks = BasicBlocks<const double>;
+
 }  // namespace vesiflow::fluid

@@ -1,0 +1,74 @@
+// The operators of EllipticProblem applied to arrays with ghosts, without a branch at the walls.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "aligned_array.h"
+#include "fluid/elliptic_problem.h"
+#include "fluid/view.h"
+
+namespace vesiflow::fluid {
+
+// The arrays of a problem's unknowns laid out as fields: all points, and one layer of ghosts. Zero at first.
+class GhostedBlocks {
+ public:
+  explicit GhostedBlocks(const EllipticProblem& problem);
+
+  Blocks unknowns() { return blocks(unknowns_); }
+  ConstBlocks unknowns() const { return blocks(unknowns_); }
+  Blocks points() { return blocks(points_); }
+  ConstBlocks points() const { return blocks(points_); }
+
+  // Copies the unknowns.
+  void assign(ConstBlocks x);
+  // Sets points on walls to zero, and ghosts by the problem's homogeneous conditions or from the other end.
+  void set_ghosts();
+
+ private:
+  Blocks blocks(const std::array<View, 3>& views) const { return count_ == 1 ? Blocks(views[0]) : Blocks(views); }
+
+  int count_;
+  std::array<bool, 3> periodic_;
+  std::array<Centring, 3> centring_{};
+  double reflection_;  // ghost / value inside
+  std::array<AlignedArray, 3> storage_;
+  std::array<View, 3> points_, unknowns_;
+};
+
+// The coefficient as an array with ghosts, whether it is one or not.
+class CoefficientView {
+ public:
+  CoefficientView(const Grid& grid, const Viscosity& mu);
+  operator ConstView() const { return view_; }
+
+ private:
+  std::vector<double> row_;  // of a constant: it stands for all rows
+  ConstView view_;
+};
+
+class Stencil {
+ public:
+  explicit Stencil(const EllipticProblem& problem);
+
+  // y = A x. Sets the ghosts of x. Parallel over planes.
+  void apply(GhostedBlocks& x, Blocks y) const;
+
+ private:
+  void apply_row(ConstBlocks points, int block, int j, int k, double* out) const;
+
+  EllipticProblem problem_;
+  CoefficientView mu_;
+};
+
+// div(mu (grad u + grad u^T)) or div(mu grad u), with mu - offset in the place of mu, of a velocity component at its
+// unknowns i of row (j, k), counted in points; out[0] belongs to point (0, j, k). Reads the ghosts of u and mu.
+// Never inlined, for the same bits wherever it is called from.
+[[gnu::noinline]] void stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset,
+                                  int component, int j, int k, double* out);
+
+// The same for div(mu grad x) of one array on a centring.
+[[gnu::noinline]] void variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu, int j,
+                                              int k, double* out);
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,93 @@
+#include "fluid/viscosity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "message.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+[[noreturn]] void refuse(const Field<Cell>& mu) {
+  const auto [nx, ny, nz] = mu.extent();
+  for (int k = -1; k <= nz; ++k) {
+    for (int j = -1; j <= ny; ++j) {
+      for (int i = -1; i <= nx; ++i) {
+        const double value = mu(i, j, k);
+        if (std::isfinite(value) && value > 0.0) continue;
+        const bool ghost = i < 0 || j < 0 || k < 0 || i == nx || j == ny || k == nz;
+        throw std::invalid_argument(message("viscosity: the value at cell (", i, ", ", j, ", ", k, ") is ", value,
+                                            "; it must be finite and > 0",
+                                            ghost ? " (this is a ghost: set them with extend_to_ghosts)" : ""));
+      }
+    }
+  }
+  throw std::invalid_argument("viscosity: the field changed while it was checked");
+}
+
+}  // namespace
+
+Viscosity::Viscosity(std::shared_ptr<const Field<Cell>> field) : field_(std::move(field)) {
+  if (!field_) throw std::invalid_argument("viscosity: the field is a null pointer");
+}
+
+Viscosity::Range Viscosity::checked_range() const {
+  if (is_constant()) {
+    if (!std::isfinite(value_) || value_ <= 0.0) {
+      throw std::invalid_argument(message("viscosity: mu is ", value_, "; it must be finite and > 0"));
+    }
+    return {value_, value_};
+  }
+  const double* mu = field_->data();
+  const std::size_t size = field_->size();
+  double min = std::numeric_limits<double>::infinity();
+  double max = 0.0;
+  bool sound = true;
+#pragma omp parallel for schedule(static) reduction(min : min) reduction(max : max) reduction(&& : sound)
+  for (std::size_t i = 0; i < size; ++i) {
+    sound = sound && mu[i] > 0.0 && mu[i] <= std::numeric_limits<double>::max();
+    min = std::min(min, mu[i]);
+    max = std::max(max, mu[i]);
+  }
+  if (!sound) refuse(*field_);
+  return {min, max};
+}
+
+void extend_to_ghosts(Field<Cell>& field) {
+  const auto n = field.extent();
+  const auto& periodic = field.grid().periodic;
+  // The cell whose value belongs at index -1 (side 0) or n (side 1).
+  const auto source = [&](int axis, int side) {
+    const bool first = (side == 0) != periodic[axis];
+    return first ? 0 : n[axis] - 1;
+  };
+  for (int k = 0; k < n[2]; ++k) {
+    for (int j = 0; j < n[1]; ++j) {
+      double* row = field.row(j, k);
+      row[-1] = row[source(0, 0)];
+      row[n[0]] = row[source(0, 1)];
+    }
+    std::copy_n(field.row(source(1, 0), k) - 1, n[0] + 2, field.row(-1, k) - 1);
+    std::copy_n(field.row(source(1, 1), k) - 1, n[0] + 2, field.row(n[1], k) - 1);
+  }
+  const auto plane = static_cast<std::size_t>(field.stride(2));
+  std::copy_n(field.row(-1, source(2, 0)) - 1, plane, field.row(-1, -1) - 1);
+  std::copy_n(field.row(-1, source(2, 1)) - 1, plane, field.row(-1, n[2]) - 1);
+}
+
+std::shared_ptr<Field<Cell>> sample_viscosity(const Grid& grid,
+                                              const std::function<double(const Vector3& position)>& function) {
+  auto field = std::make_shared<Field<Cell>>(grid);
+  for (int k = 0; k < grid.cells[2]; ++k) {
+    for (int j = 0; j < grid.cells[1]; ++j) {
+      for (int i = 0; i < grid.cells[0]; ++i) (*field)(i, j, k) = function(field->position(i, j, k));
+    }
+  }
+  extend_to_ghosts(*field);
+  return field;
+}
+
+}  // namespace vesiflow::fluid
