@@ -11,6 +11,7 @@
 
 #include "fluid/operators.h"
 #include "message.h"
+#include "stencil.h"
 #include "step_passes.h"
 
 namespace vesiflow::fluid {
@@ -230,7 +231,7 @@ void NavierStokes::Stepper::project(double a) {
   walls.set_normal_faces(previous);
   divergence(previous, chi_);
   pressure_solver_->solve(chi_.unknowns(), chi_.unknowns());
-  correct_velocity_and_pressure(chi_, a, parameters.viscosity, previous, pressure);
+  correct_velocity_and_pressure(chi_, a, CoefficientView(grid, parameters.viscosity), 1.0, previous, pressure);
   walls.fill_ghosts(previous);
 }
 
