@@ -22,10 +22,15 @@ double decay_rate(double ratio) {
   return std::log1p(0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio));
 }
 
+void prefetch(const double* row, int columns) {
+  for (int i = 0; i < columns; i += 8) __builtin_prefetch(row + i, 1, 2);
+}
+
 // row[i] = b[i] + r[i] row[i] for the rows of b in the order they are given by first and step: the sum of r^m b, m
 // counted from the last.
 void accumulate(const double* b, std::ptrdiff_t step, int rows, int columns, const double* r, double* sum) {
   for (int m = 0; m < rows; ++m, b += step) {
+    if (m + 4 < rows) prefetch(b + 4 * step, columns);
     for (int i = 0; i < columns; ++i) sum[i] = b[i] + r[i] * sum[i];
   }
 }
@@ -73,6 +78,7 @@ double ColumnSolver::solve(double* x, std::ptrdiff_t stride, int columns, const 
   for (int k = 0; k < n_; ++k) {
     const double* b = x + k * stride;
     double* y = rows.slab + k * row_stride_;
+    if (k + 4 < n_) prefetch(b + 4 * stride, columns);
     for (int i = 0; i < columns; ++i) y[i] = c[i] * b[i] + r[i] * below[i];
     below = y;
   }

@@ -41,6 +41,16 @@ void load_rows(const double* in, std::ptrdiff_t stride, int j, int ny, int n, co
   }
 }
 
+void prefetch_rows(const double* in, std::ptrdiff_t stride, int first, int end, int n) {
+  for (int j = first; j < end; ++j) {
+    for (int i = 0; i < n; i += 8) __builtin_prefetch(in + j * stride + i, 0, 2);
+  }
+}
+
+void prefetch_columns(const double* out, std::ptrdiff_t stride, int n) {
+  for (int j = 0; j < n; ++j) __builtin_prefetch(out + j * stride, 1, 2);
+}
+
 void store_rows(const double* result, int n, const Place* place, double* plane, std::ptrdiff_t stride) {
   for (int l = 0; l < lanes; l += 4) {
     int i = 0;
@@ -97,11 +107,13 @@ void TransformPlan::execute(const double* in, std::ptrdiff_t in_stride, double* 
   double* result = block + block_size_;
   for (int j = 0; j < ny; j += lanes) {
     load_rows(in, in_stride, j, ny, nx, along_x_.input(), block);
+    prefetch_rows(in, in_stride, j + lanes, std::min(j + 2 * lanes, ny), nx);
     along_x_.execute(block, result);
     store_rows(result, nx, along_x_.output(), plane + j * row_stride_, row_stride_);
   }
   for (int i = 0; i < nx; i += lanes) {
     load_columns(plane + i, row_stride_, ny, along_y_.input(), block);
+    prefetch_columns(out + std::min(i + 2 * lanes, nx) - 1, out_stride, ny);
     along_y_.execute(block, result);
     store_columns(result, std::min(lanes, nx - i), ny, along_y_.output(), out + i, out_stride);
   }
