@@ -9,7 +9,9 @@
 #include "fft_solver.h"
 #include "message.h"
 #include "pcg_solver.h"
+#include "solver_factory.h"
 #ifdef VESIFLOW_WITH_CHOLMOD
+#include "cholmod_estimate.h"
 #include "cholmod_solver.h"
 #endif
 
@@ -48,6 +50,17 @@ struct Overloaded : Visitors... {
 };
 template <class... Visitors>
 Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+// A factor that may be another problem's only preconditions.
+bool may_lag(const CholmodOptions& options) {
+  return options.refactor.every != 1 || options.refactor.change > 0.0;
+}
+
+PcgOptions conjugate_gradients(const CholmodOptions& preconditioner) {
+  PcgOptions options;
+  options.preconditioner = preconditioner;
+  return options;
+}
 
 #ifndef VESIFLOW_WITH_CHOLMOD
 [[noreturn]] void refuse_cholmod() {
@@ -88,7 +101,7 @@ SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& op
   return {pcg, "variable or coupled coefficients: iterations do not depend on the grid"};
 }
 
-std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem, const SolverOptions& options) {
+std::unique_ptr<EllipticSolver> make_preconditioner(const EllipticProblem& problem, const Preconditioner& options) {
   using Result = std::unique_ptr<EllipticSolver>;
   return std::visit(
       Overloaded{[&](const FftOptions& fft) -> Result { return std::make_unique<FftSolver>(problem, fft); },
@@ -98,6 +111,26 @@ std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& prob
 #else
                    refuse_cholmod();
 #endif
+                 }},
+      options);
+}
+
+std::size_t estimate_preconditioner_memory(const EllipticProblem& problem, const Preconditioner& options) {
+  if (std::holds_alternative<FftOptions>(options)) return FftSolver::estimate_memory(problem, omp_get_max_threads());
+#ifdef VESIFLOW_WITH_CHOLMOD
+  return static_cast<std::size_t>(rule_of_thumb(problem).bytes);
+#else
+  refuse_cholmod();
+#endif
+}
+
+std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem, const SolverOptions& options) {
+  using Result = std::unique_ptr<EllipticSolver>;
+  return std::visit(
+      Overloaded{[&](const FftOptions& fft) -> Result { return make_preconditioner(problem, fft); },
+                 [&](const CholmodOptions& cholmod) -> Result {
+                   if (!may_lag(cholmod)) return make_preconditioner(problem, cholmod);
+                   return make_elliptic_solver(problem, conjugate_gradients(cholmod));
                  },
                  [&](const PcgOptions& pcg) -> Result { return std::make_unique<PcgSolver>(problem, pcg); },
                  [&](const AutoOptions& automatic) -> Result {
@@ -107,20 +140,16 @@ std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& prob
 }
 
 std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options) {
-  return std::visit(
-      Overloaded{[&](const FftOptions&) { return FftSolver::estimate_memory(problem, omp_get_max_threads()); },
-                 [&](const CholmodOptions&) -> std::size_t {
-#ifdef VESIFLOW_WITH_CHOLMOD
-                   return CholmodSolver::estimate_memory(problem);
-#else
-                   refuse_cholmod();
-#endif
-                 },
-                 [&](const PcgOptions& pcg) { return PcgSolver::estimate_memory(problem, pcg); },
-                 [&](const AutoOptions& automatic) {
-                   return estimate_solver_memory(problem, choose_solver(problem, automatic).options);
-                 }},
-      options);
+  return std::visit(Overloaded{[&](const FftOptions& fft) { return estimate_preconditioner_memory(problem, fft); },
+                               [&](const CholmodOptions& cholmod) {
+                                 if (!may_lag(cholmod)) return estimate_preconditioner_memory(problem, cholmod);
+                                 return estimate_solver_memory(problem, conjugate_gradients(cholmod));
+                               },
+                               [&](const PcgOptions& pcg) { return PcgSolver::estimate_memory(problem, pcg); },
+                               [&](const AutoOptions& automatic) {
+                                 return estimate_solver_memory(problem, choose_solver(problem, automatic).options);
+                               }},
+                    options);
 }
 
 }  // namespace vesiflow::fluid

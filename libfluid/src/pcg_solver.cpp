@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "message.h"
+#include "solver_factory.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -24,10 +25,6 @@ const PcgOptions& checked(const PcgOptions& options) {
                                         options.reference_viscosity, "; it must be > 0, or 0 for automatic"));
   }
   return options;
-}
-
-SolverOptions solver_options(const PcgOptions& options) {
-  return std::visit([](const auto& preconditioner) { return SolverOptions(preconditioner); }, options.preconditioner);
 }
 
 // visit(row of y, row of x, length) for all rows, in parallel over planes.
@@ -80,7 +77,8 @@ std::size_t PcgSolver::estimate_memory(const EllipticProblem& problem, const Pcg
     bytes += 4 * sizeof(double) * static_cast<std::size_t>(n[0] + 2) * (n[1] + 2) * (n[2] + 2);
   }
   const bool fft = std::holds_alternative<FftOptions>(options.preconditioner);
-  return bytes + estimate_solver_memory(fft ? problem.with_constant_viscosity(1.0) : problem, solver_options(options));
+  return bytes +
+         estimate_preconditioner_memory(fft ? problem.with_constant_viscosity(1.0) : problem, options.preconditioner);
 }
 
 EllipticProblem PcgSolver::preconditioning_problem(const EllipticProblem& problem) const {
@@ -93,7 +91,7 @@ EllipticProblem PcgSolver::preconditioning_problem(const EllipticProblem& proble
 void PcgSolver::do_update(const EllipticProblem& problem) {
   const EllipticProblem reference = preconditioning_problem(problem);
   if (!preconditioner_ || !problem.same_structure(this->problem())) {
-    preconditioner_ = make_elliptic_solver(reference, solver_options(options_));
+    preconditioner_ = make_preconditioner(reference, options_.preconditioner);
     direction_ = std::make_unique<GhostedBlocks>(problem);
     product_ = std::make_unique<GhostedBlocks>(problem);
     residual_ = std::make_unique<GhostedBlocks>(problem);
