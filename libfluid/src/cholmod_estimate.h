@@ -13,8 +13,8 @@ struct FactorEstimate {
   double seconds() const;
 };
 
-// From the shape of the grid alone. Within a factor of 1.5 of the exact counts for boxes of 12^3 to 64^3 cells; it may
-// be more too high for elongated boxes.
+// From the shape of the grid alone. Within a factor of 1.5 (bytes) and 2 (flops) of CHOLMOD's counts for boxes of 12^3 to
+// 64^3 cells.
 FactorEstimate rule_of_thumb(const EllipticProblem& problem);
 
 // Throws std::invalid_argument, with the estimate, the limit and the alternatives, if the estimate exceeds
