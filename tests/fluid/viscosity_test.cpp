@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -59,6 +60,12 @@ TEST(Viscosity, RefusesValuesThatAreNotPositiveAndNamesThePlace) {
   }
   EXPECT_THAT([] { Viscosity(std::shared_ptr<const Field<Cell>>()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("null")));
+}
+
+TEST(Viscosity, NamesTheCellAndNotTheGhostThatIsItsCopy) {
+  const auto mu = sample_viscosity(grid, [](const Vector3& r) { return r[0] < 0.2 ? -1.0 : 1.0; });
+  EXPECT_THAT([&] { Viscosity(mu).checked_range(); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("cell (0, 0, 0) is -1")));
 }
 
 TEST(Viscosity, SolversRefuseAFieldWithoutGhosts) {
