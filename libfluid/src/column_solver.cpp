@@ -103,6 +103,7 @@ double ColumnSolver::solve(double* x, std::ptrdiff_t stride, int columns, const 
 // half period.
 int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows& rows) const {
   const double inverse = 1.0 / s;
+  const double slowest = decay_rate(*std::min_element(shift, shift + rows.columns) * inverse);
   for (int i = 0; i < rows.columns; ++i) {
     const double ratio = shift[i] * inverse;
     const double r = 1.0 / (1.0 + 0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio));
@@ -110,7 +111,7 @@ int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows
     rows.factor[i] = scale * inverse * r;
   }
   constexpr double negligible = 42.0;  // exp(-42) = 6e-19
-  if (half_period_ * decay_rate(shift[0] * inverse) < negligible) {
+  if (half_period_ * slowest < negligible) {
     for (int i = 0; i < rows.columns; ++i) {
       if (is_direct(shift[i], s)) {
         rows.decay[i] = 0.0;
@@ -119,7 +120,7 @@ int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows
     }
     return half_period_ + 1;
   }
-  return static_cast<int>(std::ceil(negligible / decay_rate(shift[0] * inverse)));
+  return static_cast<int>(std::ceil(negligible / slowest));
 }
 
 // y_{-1} into the row of neighbours.
