@@ -120,6 +120,9 @@ struct AutoOptions {
 
 using SolverOptions = std::variant<FftOptions, CholmodOptions, PcgOptions, AutoOptions>;
 
+// "fft", "cholmod", "pcg+fft", "pcg+cholmod" or "auto".
+std::string name(const SolverOptions& options);
+
 // What "auto" takes for a problem, and why in words: "fft" where it is exact; else "cholmod" (in builds that have it) if a
 // factorisation is estimated to be faster than one solve by "pcg" with "fft", which happens for small grids and very
 // large ratios of viscosities; else the latter. A mu that changes at every step is assumed: one factorisation a solve.
