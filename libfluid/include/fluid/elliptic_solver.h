@@ -38,9 +38,10 @@ class EllipticSolver {
 
   // Solves for x. rhs and x have one view per block of the problem, each of the shape of problem().extent(block); they
   // may be the same arrays but not overlap otherwise. Iterative solvers start from x, unless it is rhs: then from zero.
-  // Does not allocate (but FFTW does within "fft", for a number of cells with a prime factor above 31). Throws
-  // std::invalid_argument for a wrong shape and std::runtime_error if the solution is not finite, which happens
-  // exactly if rhs (or the x to start from) is not, or overflows. An iteration that has not converged is reported.
+  // Does not allocate (but FFTW does within "fft", for a number of cells with a prime factor above 31 and in its own
+  // real-to-real plans). Throws std::invalid_argument for a wrong shape and std::runtime_error if the solution is not
+  // finite, which happens exactly if rhs (or the x to start from) is not, or overflows. An iteration that has not
+  // converged is reported.
   SolveReport solve(ConstBlocks rhs, Blocks x);
 
   const EllipticProblem& problem() const { return problem_; }
@@ -64,13 +65,13 @@ class EllipticSolver {
   double update_seconds_ = 0.0;
 };
 
-// Fast sine, cosine and Fourier transforms in x and y with the eigenvalues of the discrete operator, and a tridiagonal
-// solve in z. O(n log n), exact to round-off. For constant mu and the laplacian form. The same bits for any number of
-// threads.
+// Fast sine, cosine and Fourier transforms in x and y with the eigenvalues of the discrete operator, and the difference
+// equations in z by two sweeps. O(n log n), exact to round-off, for any mix of walls and periodic axes. For constant mu
+// and the laplacian form. The same bits for any number of threads.
 struct FftOptions {
   enum class Transforms {
     pairs_of_lines,  // complex FFTs of pairs of real lines, plane by plane in cache
-    fftw_r2r         // FFTW's three-dimensional real-to-real plan as it is: the reference to check and time against
+    fftw_r2r  // FFTW's three-dimensional real-to-real plan as it is, serial: the reference to check and time against
   };
   Transforms transforms = Transforms::pairs_of_lines;
 };
