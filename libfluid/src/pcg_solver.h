@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "block_algebra.h"
 #include "fluid/elliptic_solver.h"
 #include "stencil.h"
 
@@ -23,15 +23,13 @@ class PcgSolver final : public EllipticSolver {
   void do_update(const EllipticProblem& problem) override;
   SolveReport do_solve(ConstBlocks rhs, Blocks x) override;
   EllipticProblem preconditioning_problem(const EllipticProblem& problem) const;
-  std::array<double, 3> remove_means(Blocks x);
-  double dot(ConstBlocks a, ConstBlocks b);
 
   PcgOptions options_;
   std::unique_ptr<EllipticSolver> preconditioner_;
   std::unique_ptr<Stencil> stencil_;
   std::unique_ptr<GhostedBlocks> direction_;                            // p
   std::unique_ptr<GhostedBlocks> product_, residual_, preconditioned_;  // A p, r, M^-1 r
-  std::vector<double> plane_sums_;
+  PlaneSums plane_sums_;
 };
 
 }  // namespace vesiflow::fluid

@@ -137,7 +137,10 @@ Stencil::Stencil(const EllipticProblem& problem) : problem_(problem), mu_(proble
 
 void Stencil::apply(GhostedBlocks& x, Blocks y) const {
   x.set_ghosts();
-  const ConstBlocks points = std::as_const(x).points();
+  apply_to_points(std::as_const(x).points(), y);
+}
+
+void Stencil::apply_to_points(ConstBlocks points, Blocks y) const {
   const Grid& grid = problem_.grid;
   for (int block = 0; block < problem_.blocks(); ++block) {
     const auto n = problem_.extent(block);

@@ -53,6 +53,8 @@ class Stencil {
 
   // y = A x. Sets the ghosts of x. Parallel over planes.
   void apply(GhostedBlocks& x, Blocks y) const;
+  // The same from all points of arrays whose ghosts have been set, by other conditions perhaps.
+  void apply_to_points(ConstBlocks points, Blocks y) const;
 
  private:
   void apply_row(ConstBlocks points, int block, int j, int k, double* out) const;
