@@ -30,6 +30,14 @@ inline void set_zero(Blocks y) {
   for_each_row(y, y, [](double* to, const double*, int n) { std::fill_n(to, n, 0.0); });
 }
 
+// y *= factor.
+inline void scale(double factor, Blocks y) {
+  for_each_row(y, y, [factor](double* to, const double*, int n) {
+#pragma omp simd
+    for (int i = 0; i < n; ++i) to[i] *= factor;
+  });
+}
+
 // y += factor x.
 inline void add(double factor, ConstBlocks x, Blocks y) {
   for_each_row(x, y, [factor](double* to, const double* from, int n) {

@@ -245,4 +245,25 @@ void stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView m
   for (int i = begin; i < end; ++i) out[i] = normal_force(i) + shear_force(first, i) + shear_force(second, i);
 }
 
+// Beyond a wall half a cell away the ghost is minus the value here, so that the edge on the wall counts twice.
+void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out) {
+  const Centring centring = face_centrings[component];
+  const auto n = point_extent(grid, centring);
+  const int begin = first_unknown(grid, centring, 0);
+  const int end = begin + unknown_extent(grid, centring)[0];
+  std::fill(out + begin, out + end, 0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const MeanCoefficient mean(mu, centring, axis, j, k);
+    const double h = grid.spacing(axis);
+    const double scale = (axis == component ? 2.0 : 1.0) / (h * h);
+    const bool has_walls = axis != component && !grid.periodic[axis];
+    for (int i = begin; i < end; ++i) {
+      const int index = axis == 0 ? i : axis == 1 ? j : k;
+      const double above = has_walls && index == n[axis] - 1 ? 2.0 : 1.0;
+      const double below = has_walls && index == 0 ? 2.0 : 1.0;
+      out[i] += scale * (above * mean.above(i) + below * mean.below(i));
+    }
+  }
+}
+
 }  // namespace vesiflow::fluid

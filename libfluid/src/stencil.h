@@ -69,7 +69,11 @@ class Stencil {
 [[gnu::noinline]] void stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset,
                                   int component, int j, int k, double* out);
 
-// The same for div(mu grad x) of one array on a centring.
+// The diagonal of -div(mu (grad u + grad u^T)) with homogeneous walls, of a velocity component at its unknowns of row
+// (j, k), as above.
+void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out);
+
+// The same as stress_row for div(mu grad x) of one array on a centring.
 [[gnu::noinline]] void variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu, int j,
                                               int k, double* out);
 

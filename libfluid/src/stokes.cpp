@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bramble_pasciak_solver.h"
 #include "fluid/operators.h"
 #include "message.h"
 #include "saddle_vector.h"
@@ -44,7 +45,9 @@ class StokesSolver::System {
   SaddleVector residual_, correction_;
   FaceVector lift_;  // zero but on walls and their ghosts
   PlaneSums sums_;
+  // The one that suits the viscosity; the other is released.
   std::unique_ptr<SchurComplementSolver> constant_;
+  std::unique_ptr<BramblePasciakSolver> variable_;
   SaddleSolver* solver_ = nullptr;
 };
 
@@ -64,14 +67,15 @@ void StokesSolver::System::update(const Viscosity& mu) {
   }
   mu.checked_range();
   if (mu.is_constant()) {
-    if (constant_) {
-      constant_->update(mu.value());
-    } else {
-      constant_ = std::make_unique<SchurComplementSolver>(grid, mu.value());
-    }
+    variable_.reset();
+    if (!constant_) constant_ = std::make_unique<SchurComplementSolver>(grid, mu.value());
+    constant_->update(mu.value());
     solver_ = constant_.get();
   } else {
-    throw std::invalid_argument("stokes: variable viscosity is not there yet");
+    constant_.reset();
+    if (!variable_) variable_ = std::make_unique<BramblePasciakSolver>(grid);
+    variable_->update(mu);
+    solver_ = variable_.get();
   }
 }
 
@@ -81,9 +85,7 @@ void StokesSolver::System::set_residual(const FaceVector& force, const FaceVecto
   add_gradient(grid, p, residual_.u());
   scale_and_add(-1.0, force.unknowns(), residual_.u());
   negative_divergence(grid, u.points(), residual_.p());
-  for_each_row(residual_.p(), residual_.p(), [](double* to, const double*, int n) {
-    for (int i = 0; i < n; ++i) to[i] = -to[i];
-  });
+  scale(-1.0, residual_.p());
 }
 
 StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u,
@@ -98,9 +100,9 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   set_zero(correction_.p());
   set_residual(force, lift_, correction_.pressure);
   if (!grid.has_walls()) report.removed_mean_force = sums_.remove_means(residual_.u());
-  const double scale = solver_->norm(residual_);
+  const double size = solver_->norm(residual_);
   const double force_norm = std::sqrt(sums_.dot(residual_.u(), residual_.u()));
-  if (!std::isfinite(scale)) throw std::runtime_error("stokes: the force is not finite");
+  if (!std::isfinite(size)) throw std::runtime_error("stokes: the force is not finite");
 
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
   walls.set_normal_faces(u);
@@ -109,7 +111,7 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   set_residual(force, u, correction_.pressure);
   if (!grid.has_walls()) sums_.remove_means(residual_.u());
   const SaddleProgress progress =
-      solver_->solve(residual_, options.tolerance * scale, options.max_iterations, correction_);
+      solver_->solve(residual_, options.tolerance * size, options.max_iterations, correction_);
   if (!std::isfinite(progress.norm)) throw std::runtime_error("stokes: the initial guess is not finite");
   add(1.0, correction_.u(), u.unknowns());
   add(1.0, correction_.p(), p.unknowns());
@@ -121,8 +123,8 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   set_residual(force, u, correction_.pressure);
   if (!grid.has_walls()) sums_.remove_means(residual_.u());
   report.iterations = progress.iterations;
-  report.converged = progress.norm <= options.tolerance * scale;
-  report.residual = scale > 0.0 ? progress.norm / scale : progress.norm;
+  report.converged = progress.norm <= options.tolerance * size;
+  report.residual = size > 0.0 ? progress.norm / size : progress.norm;
   report.momentum_residual = std::sqrt(sums_.dot(residual_.u(), residual_.u()));
   if (force_norm > 0.0) report.momentum_residual /= force_norm;
   report.divergence = max_divergence(u);
