@@ -1,8 +1,10 @@
 #include "fluid/boundary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "message.h"
 
@@ -16,32 +18,84 @@ std::ptrdiff_t stride(const View& field, int axis) {
   return axis == 0 ? 1 : axis == 1 ? field.row_stride : field.plane_stride;
 }
 
-constexpr Centring component_centring(int component) {
-  return static_cast<Centring>(component + 1);
+// Ghosts across an axis whose points repeat after a number of cells.
+void repeat_into_ghosts(const View& field, int axis, int period) {
+  const auto [axis_a, axis_b] = wall_axes[axis];
+  const std::ptrdiff_t step = stride(field, axis);
+  const int count = field.extent[axis];
+  const int from_a = axis_a < axis ? -1 : 0;
+  const int from_b = axis_b < axis ? -1 : 0;
+  for (int b = from_b; b < field.extent[axis_b] - from_b; ++b) {
+    for (int a = from_a; a < field.extent[axis_a] - from_a; ++a) {
+      double* line = field.data + a * stride(field, axis_a) + b * stride(field, axis_b);
+      line[-step] = line[(period - 1) * step];
+      line[count * step] = line[(count - period) * step];
+    }
+  }
 }
 
 }  // namespace
 
 WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool steady)
     : grid_(grid), velocity_(std::move(velocity)), steady_(steady) {
-  if (!velocity_) throw std::invalid_argument("boundary: the velocity of the walls is an empty function");
+  if (!velocity_ && grid.has_walls()) {
+    throw std::invalid_argument("boundary: the velocity of the walls is an empty function");
+  }
   for (int component = 0; component < 3; ++component) {
-    const auto extent = point_extent(grid, component_centring(component));
+    const auto extent = point_extent(grid, face_centrings[component]);
     for (int axis = 0; axis < 3; ++axis) {
       const std::array<int, 2> along{extent[wall_axes[axis][0]], extent[wall_axes[axis][1]]};
-      const std::vector<double> values(static_cast<std::size_t>(along[0] + 2) * (along[1] + 2));
-      for (int side = 0; side < 2; ++side) planes_.push_back({component, axis, side, along, values});
+      const std::size_t size = grid.periodic[axis] ? 0 : static_cast<std::size_t>(along[0] + 2) * (along[1] + 2);
+      for (int side = 0; side < 2; ++side) planes_.push_back({component, axis, side, along, std::vector<double>(size)});
     }
   }
-  for (Plane& plane : planes_) sample(plane);
-  balance_flux();
+  sample_all();
 }
 
 void WallVelocity::evaluate(double time) {
   if (steady_ || time == time_) return;
   time_ = time;
-  for (Plane& plane : planes_) sample(plane);
+  sample_all();
+}
+
+void WallVelocity::sample_all() {
+  for (Plane& plane : planes_) {
+    if (grid_.periodic[plane.axis]) continue;
+    if (plane.component == plane.axis) check_periodicity(plane);
+    sample(plane);
+  }
   balance_flux();
+}
+
+double WallVelocity::sampled_at(const Vector3& position, int component) const {
+  const double value = velocity_(position, time_)[component];
+  if (std::isfinite(value)) return value;
+  throw std::invalid_argument(message("boundary: velocity component ", component, " is ", value, " at (", position[0],
+                                      ", ", position[1], ", ", position[2], "), time ", time_));
+}
+
+// Compares the function at the two ends of the periodic axes along a wall.
+void WallVelocity::check_periodicity(const Plane& plane) const {
+  for (int a = 0; a < 2; ++a) {
+    const int periodic_axis = wall_axes[plane.axis][a];
+    if (!grid_.periodic[periodic_axis]) continue;
+    const int other_axis = wall_axes[plane.axis][1 - a];
+    for (int i = 0; i < grid_.cells[other_axis]; ++i) {
+      Vector3 low = grid_.lower;
+      if (plane.side == 1) low[plane.axis] = grid_.upper[plane.axis];
+      low[other_axis] += (i + 0.5) * grid_.spacing(other_axis);
+      Vector3 high = low;
+      high[periodic_axis] = grid_.upper[periodic_axis];
+      for (int component = 0; component < 3; ++component) {
+        const double at_low = sampled_at(low, component);
+        const double at_high = sampled_at(high, component);
+        if (std::abs(at_low - at_high) <= 1e-10 * std::max({1.0, std::abs(at_low), std::abs(at_high)})) continue;
+        throw std::invalid_argument(message("boundary: velocity component ", component, " of the walls is ", at_low,
+                                            " at one end of periodic axis ", periodic_axis, " and ", at_high,
+                                            " at the other; it must be the same"));
+      }
+    }
+  }
 }
 
 void WallVelocity::sample(Plane& plane) const {
@@ -52,23 +106,28 @@ void WallVelocity::sample(Plane& plane) const {
       std::array<int, 3> index{};
       index[axis_a] = a;
       index[axis_b] = b;
-      Vector3 position = point_position(grid_, component_centring(plane.component), index[0], index[1], index[2]);
+      Vector3 position = point_position(grid_, face_centrings[plane.component], index[0], index[1], index[2]);
       position[plane.axis] = plane.side == 0 ? grid_.lower[plane.axis] : grid_.upper[plane.axis];
-      const double value = velocity_(position, time_)[plane.component];
-      if (!std::isfinite(value)) {
-        throw std::invalid_argument(message("boundary: velocity component ", plane.component, " is ", value, " at (",
-                                            position[0], ", ", position[1], ", ", position[2], "), time ", time_));
-      }
-      plane.at(a, b) = value;
+      plane.at(a, b) = sampled_at(position, plane.component);
     }
   }
+  // Along a periodic axis, points a period apart are the same.
+  const auto continuation = [&](int axis, int count, auto&& at) {
+    if (grid_.periodic[axis]) {
+      const int period = grid_.cells[axis];
+      if (count > period) at(period) = at(0);
+      at(-1) = at(period - 1);
+      at(count) = at(count - period);
+    } else {
+      at(-1) = 2 * at(0) - at(1);
+      at(count) = 2 * at(count - 1) - at(count - 2);
+    }
+  };
   for (int b = 0; b < count_b; ++b) {
-    plane.at(-1, b) = 2 * plane.at(0, b) - plane.at(1, b);
-    plane.at(count_a, b) = 2 * plane.at(count_a - 1, b) - plane.at(count_a - 2, b);
+    continuation(axis_a, count_a, [&](int a) -> double& { return plane.at(a, b); });
   }
   for (int a = -1; a <= count_a; ++a) {
-    plane.at(a, -1) = 2 * plane.at(a, 0) - plane.at(a, 1);
-    plane.at(a, count_b) = 2 * plane.at(a, count_b - 1) - plane.at(a, count_b - 2);
+    continuation(axis_b, count_b, [&](int b) -> double& { return plane.at(a, b); });
   }
 }
 
@@ -77,6 +136,7 @@ void WallVelocity::balance_flux() {
   double gross = 0.0;
   double area = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
+    if (grid_.periodic[axis]) continue;
     const double face_area = grid_.cell_volume() / grid_.spacing(axis);
     for (int side = 0; side < 2; ++side) {
       const Plane& wall = plane(axis, axis, side);
@@ -101,6 +161,7 @@ void WallVelocity::balance_flux() {
                                         " is accepted as the error of sampling)"));
   }
   for (int axis = 0; axis < 3; ++axis) {
+    if (grid_.periodic[axis]) continue;
     for (int side = 0; side < 2; ++side) {
       const double correction = (side == 0 ? net : -net) / area;
       for (double& value : planes_[axis * 6 + axis * 2 + side].values) value += correction;
@@ -113,36 +174,47 @@ void WallVelocity::set_normal_faces(FaceVector& u) const {
   for (int axis = 0; axis < 3; ++axis) {
     const View& field = fields[axis];
     const auto [axis_a, axis_b] = wall_axes[axis];
-    for (int side = 0; side < 2; ++side) {
-      const Plane& wall = plane(axis, axis, side);
-      double* start = field.data + (side == 0 ? 0 : field.extent[axis] - 1) * stride(field, axis);
-      for (int b = 0; b < wall.extent[1]; ++b) {
-        for (int a = 0; a < wall.extent[0]; ++a) {
-          start[a * stride(field, axis_a) + b * stride(field, axis_b)] = wall.at(a, b);
-        }
+    const std::ptrdiff_t last = (field.extent[axis] - 1) * stride(field, axis);
+    const Plane& low = plane(axis, axis, 0);
+    const Plane& high = plane(axis, axis, 1);
+    for (int b = 0; b < low.extent[1]; ++b) {
+      for (int a = 0; a < low.extent[0]; ++a) {
+        double* face = field.data + a * stride(field, axis_a) + b * stride(field, axis_b);
+        if (!grid_.periodic[axis]) face[0] = low.at(a, b);
+        face[last] = grid_.periodic[axis] ? face[0] : high.at(a, b);
       }
     }
   }
 }
 
+// Axis x first, then y, then z: each sweep also covers the ghosts that earlier ones have set, so that edges and corners
+// are filled too.
 void WallVelocity::fill_ghosts(FaceVector& u) const {
   const auto fields = u.points();
-  for (const Plane& wall : planes_) {
-    const View& field = fields[wall.component];
-    const int axis = wall.axis;
-    const auto [axis_a, axis_b] = wall_axes[axis];
-    const bool on_wall = wall.component == axis;
-    const std::ptrdiff_t inward = wall.side == 0 ? stride(field, axis) : -stride(field, axis);
-    double* ghosts = field.data + (wall.side == 0 ? -1 : field.extent[axis]) * stride(field, axis);
-    // Walls normal to x come first, then y, then z: each sweep also covers the ghosts that earlier ones have
-    // set, so that edges and corners are filled too. The earlier axes are those with a smaller number.
-    const int from_a = axis_a < axis ? -1 : 0;
-    const int from_b = axis_b < axis ? -1 : 0;
-    for (int b = from_b; b < wall.extent[1] - from_b; ++b) {
-      for (int a = from_a; a < wall.extent[0] - from_a; ++a) {
-        double* ghost = ghosts + a * stride(field, axis_a) + b * stride(field, axis_b);
-        *ghost = on_wall ? 2 * ghost[inward] - ghost[2 * inward] : 2 * wall.at(a, b) - ghost[inward];
+  for (int component = 0; component < 3; ++component) {
+    const View& field = fields[component];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (grid_.periodic[axis]) {
+        repeat_into_ghosts(field, axis, grid_.cells[axis]);
+      } else {
+        for (int side = 0; side < 2; ++side) fill_wall_ghosts(plane(component, axis, side), field);
       }
+    }
+  }
+}
+
+void WallVelocity::fill_wall_ghosts(const Plane& wall, const View& field) const {
+  const int axis = wall.axis;
+  const auto [axis_a, axis_b] = wall_axes[axis];
+  const bool on_wall = wall.component == axis;
+  const std::ptrdiff_t inward = wall.side == 0 ? stride(field, axis) : -stride(field, axis);
+  double* ghosts = field.data + (wall.side == 0 ? -1 : field.extent[axis]) * stride(field, axis);
+  const int from_a = axis_a < axis ? -1 : 0;
+  const int from_b = axis_b < axis ? -1 : 0;
+  for (int b = from_b; b < wall.extent[1] - from_b; ++b) {
+    for (int a = from_a; a < wall.extent[0] - from_a; ++a) {
+      double* ghost = ghosts + a * stride(field, axis_a) + b * stride(field, axis_b);
+      *ghost = on_wall ? 2 * ghost[inward] - ghost[2 * inward] : 2 * wall.at(a, b) - ghost[inward];
     }
   }
 }
@@ -150,6 +222,7 @@ void WallVelocity::fill_ghosts(FaceVector& u) const {
 void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
   const auto fields = rhs.points();
   for (const Plane& wall : planes_) {
+    if (grid_.periodic[wall.axis]) continue;
     const View& field = fields[wall.component];
     const int axis = wall.axis;
     const auto [axis_a, axis_b] = wall_axes[axis];
@@ -159,10 +232,12 @@ void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
     const int inset = on_wall ? 1 : 0;
     double* first = field.data + (wall.side == 0 ? inset : field.extent[axis] - 1 - inset) * stride(field, axis);
     // Along the wall, the points of the component that lie on other walls are not unknowns.
-    const int skip_a = wall.component == axis_a ? 1 : 0;
-    const int skip_b = wall.component == axis_b ? 1 : 0;
-    for (int b = skip_b; b < wall.extent[1] - skip_b; ++b) {
-      for (int a = skip_a; a < wall.extent[0] - skip_a; ++a) {
+    const Centring centring = face_centrings[wall.component];
+    const auto unknowns = unknown_extent(grid_, centring);
+    const int first_a = first_unknown(grid_, centring, axis_a);
+    const int first_b = first_unknown(grid_, centring, axis_b);
+    for (int b = first_b; b < first_b + unknowns[axis_b]; ++b) {
+      for (int a = first_a; a < first_a + unknowns[axis_a]; ++a) {
         first[a * stride(field, axis_a) + b * stride(field, axis_b)] += factor * wall.at(a, b);
       }
     }

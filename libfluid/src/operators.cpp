@@ -79,7 +79,7 @@ double max_divergence(const FaceVector& u) {
 
 UnknownRange unknown_range(const Grid& grid, int component) {
   UnknownRange range{{0, 0, 0}, grid.cells};
-  range.begin[component] = 1;
+  range.begin[component] = first_unknown(grid, face_centrings[component], component);
   return range;
 }
 

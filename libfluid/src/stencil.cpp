@@ -1,6 +1,9 @@
 #include "stencil.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "convection_row.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -163,25 +166,26 @@ void Stencil::apply_row(ConstBlocks points, int block, int j, int k, double* out
     constant_laplacian_row(problem_, block, x, j, k, out);
     return;
   }
-  if (problem_.form == EllipticForm::stress) {
-    stress_row(grid, {points[0], points[1], points[2]}, mu_, 0.0, block, j, k, out);
-  } else {
-    variable_laplacian_row(grid, problem_.centring(block), x, mu_, j, k, out);
-  }
   const double* here = x.row(j, k);
   const int begin = first_unknown(grid, problem_.centring(block), 0);
   const int end = begin + problem_.extent(block)[0];
 #pragma omp simd
-  for (int i = begin; i < end; ++i) out[i] = problem_.alpha * here[i] - out[i];
+  for (int i = begin; i < end; ++i) out[i] = problem_.alpha * here[i];
+  if (problem_.form == EllipticForm::stress) {
+    add_stress_row(grid, {points[0], points[1], points[2]}, mu_, 0.0, -1.0, block, j, k, out);
+  } else {
+    add_variable_laplacian_row(grid, problem_.centring(block), x, mu_, -1.0, j, k, out);
+  }
 }
 
-void variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu, int j, int k, double* out) {
+void add_variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu, double factor, int j,
+                                int k, double* out) {
   const double* here = x.row(j, k);
   const std::array<MeanCoefficient, 3> m{MeanCoefficient(mu, centring, 0, j, k), MeanCoefficient(mu, centring, 1, j, k),
                                          MeanCoefficient(mu, centring, 2, j, k)};
-  const std::array<double, 3> scale{1.0 / (grid.spacing(0) * grid.spacing(0)),
-                                    1.0 / (grid.spacing(1) * grid.spacing(1)),
-                                    1.0 / (grid.spacing(2) * grid.spacing(2))};
+  const std::array<double, 3> scale{factor / (grid.spacing(0) * grid.spacing(0)),
+                                    factor / (grid.spacing(1) * grid.spacing(1)),
+                                    factor / (grid.spacing(2) * grid.spacing(2))};
   const std::ptrdiff_t sy = x.row_stride;
   const std::ptrdiff_t sz = x.plane_stride;
   const auto flux_difference = [&](const MeanCoefficient& mean, std::ptrdiff_t step, int i) {
@@ -191,13 +195,13 @@ void variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, Co
   const int end = begin + unknown_extent(grid, centring)[0];
 #pragma omp simd
   for (int i = begin; i < end; ++i) {
-    out[i] = scale[0] * flux_difference(m[0], 1, i) + scale[1] * flux_difference(m[1], sy, i) +
+    out[i] += scale[0] * flux_difference(m[0], 1, i) + scale[1] * flux_difference(m[1], sy, i) +
              scale[2] * flux_difference(m[2], sz, i);
   }
 }
 
-void stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset, int component, int j,
-                int k, double* out) {
+void add_stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset, double factor,
+                    int component, int j, int k, double* out) {
   // Along an axis d other than the component c, at the edge above: d u_c / d d from c's own neighbours, and
   // d u_d / d c from the two faces normal to d that meet the edge.
   struct Axis {
@@ -242,7 +246,25 @@ void stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView m
   const int begin = first_unknown(grid, centring, 0);
   const int end = begin + unknown_extent(grid, centring)[0];
 #pragma omp simd
-  for (int i = begin; i < end; ++i) out[i] = normal_force(i) + shear_force(first, i) + shear_force(second, i);
+  for (int i = begin; i < end; ++i) {
+    out[i] += factor * (normal_force(i) + shear_force(first, i) + shear_force(second, i));
+  }
+}
+
+void add_stress(const FaceVector& u, ConstView mu, double offset, FaceVector& f) {
+  const Grid& grid = u.grid();
+  const auto velocity = u.points();
+  const auto forces = f.points();
+#pragma omp parallel for schedule(static)
+  for (int k = 0; k < grid.cells[2]; ++k) {
+    for (int component = 0; component < 3; ++component) {
+      const UnknownRange range = unknown_range(grid, component);
+      for (int j = range.begin[1]; j < range.end[1]; ++j) {
+        if (!range.contains_row(j, k)) continue;
+        add_stress_row(grid, velocity, mu, offset, 1.0, component, j, k, forces[component].row(j, k));
+      }
+    }
+  }
 }
 
 // Beyond a wall half a cell away the ghost is minus the value here, so that the edge on the wall counts twice.

@@ -63,18 +63,21 @@ class Stencil {
   CoefficientView mu_;
 };
 
-// div(mu (grad u + grad u^T)) or div(mu grad u), with mu - offset in the place of mu, of a velocity component at its
-// unknowns i of row (j, k), counted in points; out[0] belongs to point (0, j, k). Reads the ghosts of u and mu.
+// out += factor times one component of div(m (grad u + grad u^T)), m = mu - offset, at its unknowns i of row (j, k),
+// counted in points; out[0] belongs to point (0, j, k). Reads the ghosts of u and mu.
 // Never inlined, for the same bits wherever it is called from.
-[[gnu::noinline]] void stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset,
-                                  int component, int j, int k, double* out);
+[[gnu::noinline]] void add_stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset,
+                                      double factor, int component, int j, int k, double* out);
 
 // The diagonal of -div(mu (grad u + grad u^T)) with homogeneous walls, of a velocity component at its unknowns of row
 // (j, k), as above.
 void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out);
 
-// The same as stress_row for div(mu grad x) of one array on a centring.
-[[gnu::noinline]] void variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu, int j,
-                                              int k, double* out);
+// out += factor div(mu grad x) of one array on a centring, likewise.
+[[gnu::noinline]] void add_variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu,
+                                                  double factor, int j, int k, double* out);
+
+// f += div((mu - offset) (grad u + grad u^T)) on the unknowns. Parallel over planes.
+void add_stress(const FaceVector& u, ConstView mu, double offset, FaceVector& f);
 
 }  // namespace vesiflow::fluid

@@ -1,44 +1,26 @@
 #include "step_passes.h"
 
-#include <algorithm>
-
 #include "convection_row.h"
+#include "fluid/viscosity.h"
 
 namespace vesiflow::fluid {
 namespace {
 
-// Homogeneous Neumann values next to the walls; edges and corners are not needed.
-void set_neumann_ghosts(Field<Cell>& field) {
-  const auto [nx, ny, nz] = field.extent();
-  for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) {
-      double* row = field.row(j, k);
-      row[-1] = row[0];
-      row[nx] = row[nx - 1];
-    }
-    std::copy_n(field.row(0, k), nx, field.row(-1, k));
-    std::copy_n(field.row(ny - 1, k), nx, field.row(ny, k));
-  }
-  for (int j = 0; j < ny; ++j) {
-    std::copy_n(field.row(j, 0), nx, field.row(j, -1));
-    std::copy_n(field.row(j, nz - 1), nx, field.row(j, nz));
-  }
-}
-
 // u += grad chi in the faces below the cells of row (j, k).
 void add_gradient_row(const Field<Cell>& chi, const Vector3& per_h, int j, int k, FaceVector& u) {
   const int nx = chi.extent(0);
+  const auto& periodic = chi.grid().periodic;
   const double* here = chi.row(j, k);
   double* x = u.x.row(j, k);
 #pragma omp simd
-  for (int i = 1; i < nx; ++i) x[i] += (here[i] - here[i - 1]) * per_h[0];
-  if (j > 0) {
+  for (int i = periodic[0] ? 0 : 1; i < nx; ++i) x[i] += (here[i] - here[i - 1]) * per_h[0];
+  if (j > 0 || periodic[1]) {
     const double* below = chi.row(j - 1, k);
     double* y = u.y.row(j, k);
 #pragma omp simd
     for (int i = 0; i < nx; ++i) y[i] += (here[i] - below[i]) * per_h[1];
   }
-  if (k > 0) {
+  if (k > 0 || periodic[2]) {
     const double* below = chi.row(j, k - 1);
     double* z = u.z.row(j, k);
 #pragma omp simd
@@ -103,7 +85,8 @@ void explicit_terms(const StepCoefficients& coefficients, double reynolds_number
   }
 }
 
-void remove_divergence(const Field<Cell>& chi, FaceVector& u) {
+void remove_divergence(Field<Cell>& chi, FaceVector& u) {
+  extend_to_ghosts(chi);
   const Vector3 per_h = inverse_spacing(chi.grid());
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < chi.extent(2); ++k) {
@@ -111,12 +94,13 @@ void remove_divergence(const Field<Cell>& chi, FaceVector& u) {
   }
 }
 
-void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u, Field<Cell>& pressure) {
-  set_neumann_ghosts(chi);
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, ConstView mu, double factor, FaceVector& u,
+                                   Field<Cell>& pressure) {
+  extend_to_ghosts(chi);
   const Field<Cell>& c = chi;
   const Vector3 per_h = inverse_spacing(chi.grid());
-  const Vector3 m{mu * per_h[0] * per_h[0], mu * per_h[1] * per_h[1], mu * per_h[2] * per_h[2]};
-  const double diagonal = a + 2.0 * (m[0] + m[1] + m[2]);
+  const Vector3 m{factor * per_h[0] * per_h[0], factor * per_h[1] * per_h[1], factor * per_h[2] * per_h[2]};
+  const double diagonal = 2.0 * (m[0] + m[1] + m[2]);
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < c.extent(2); ++k) {
     for (int j = 0; j < c.extent(1); ++j) {
@@ -126,14 +110,30 @@ void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVe
       const double* north = c.row(j + 1, k);
       const double* below = c.row(j, k - 1);
       const double* above = c.row(j, k + 1);
+      const double* viscosity = mu.row(j, k);
       double* p = pressure.row(j, k);
 #pragma omp simd
       for (int i = 0; i < c.extent(0); ++i) {
-        p[i] += m[0] * (here[i - 1] + here[i + 1]) + m[1] * (south[i] + north[i]) + m[2] * (below[i] + above[i]) -
-                diagonal * here[i];
+        p[i] += viscosity[i] * (m[0] * (here[i - 1] + here[i + 1]) + m[1] * (south[i] + north[i]) +
+                                m[2] * (below[i] + above[i]) - diagonal * here[i]) -
+                a * here[i];
       }
     }
   }
+}
+
+void extrapolate(const FaceVector& u, const FaceVector& previous, double r, FaceVector& e) {
+  const auto extrapolate_field = [r](const auto& now, const auto& before, auto& result) {
+    const double* x = now.data();
+    const double* y = before.data();
+    double* out = result.data();
+    const std::size_t size = now.size();
+#pragma omp parallel for simd schedule(static)
+    for (std::size_t i = 0; i < size; ++i) out[i] = (1.0 + r) * x[i] - r * y[i];
+  };
+  extrapolate_field(u.x, previous.x, e.x);
+  extrapolate_field(u.y, previous.y, e.y);
+  extrapolate_field(u.z, previous.z, e.z);
 }
 
 }  // namespace vesiflow::fluid

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fluid/field.h"
+#include "fluid/view.h"
 
 namespace vesiflow::fluid {
 
@@ -22,11 +23,14 @@ StepCoefficients step_coefficients(double dt, double previous_dt);
 void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
                     const Field<Cell>& pressure, const FaceVector& force, FaceVector* convection, FaceVector& previous);
 
-// Given -Lap chi = div u: u += grad chi on the inner faces.
-void remove_divergence(const Field<Cell>& chi, FaceVector& u);
+// Given -Lap chi = div u: u += grad chi on the inner faces. Sets chi's ghosts.
+void remove_divergence(Field<Cell>& chi, FaceVector& u);
 
-// The same, and the pressure update p += phi - mu div u with phi = -a chi, where div u = -Lap chi. Sets chi's
-// ghosts.
-void correct_velocity_and_pressure(Field<Cell>& chi, double a, double mu, FaceVector& u, Field<Cell>& pressure);
+// The same, and the pressure update p += phi - factor mu div u with phi = -a chi, where div u = -Lap chi.
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, ConstView mu, double factor, FaceVector& u,
+                                   Field<Cell>& pressure);
+
+// e = (1 + r) u - r previous, ghosts and walls included: the velocity extrapolated by r times the last step.
+void extrapolate(const FaceVector& u, const FaceVector& previous, double r, FaceVector& e);
 
 }  // namespace vesiflow::fluid

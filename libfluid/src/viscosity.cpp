@@ -37,7 +37,7 @@ Viscosity::Viscosity(std::shared_ptr<const Field<Cell>> field) : field_(std::mov
 Viscosity::Range Viscosity::checked_range() const {
   if (is_constant()) {
     if (!std::isfinite(value_) || value_ <= 0.0) {
-      throw std::invalid_argument(message("viscosity: mu is ", value_, "; it must be finite and > 0"));
+      throw std::invalid_argument(message("viscosity is ", value_, "; it must be finite and > 0"));
     }
     return {value_, value_};
   }

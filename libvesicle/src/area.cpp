@@ -30,6 +30,7 @@ double area_penalty_energy(const Surface& surface, double stiffness, double targ
 
 double area_rate(const Surface& surface, const VectorField& velocity) {
   check_markers(velocity, "velocity", surface.grid().size());
+  check_finite(velocity, "a velocity");
   return 2 * ((velocity * surface.normal()).rowwise().sum() * surface.mean_curvature() * surface.area_weight()).sum();
 }
 

@@ -16,6 +16,7 @@ const BendingParameters& checked(const BendingParameters& p) {
 }  // namespace
 
 double bending_energy(const Surface& surface, double spontaneous_curvature) {
+  check_argument(std::isfinite(spontaneous_curvature), "spontaneous_curvature", spontaneous_curvature, "finite");
   return 0.5 * ((surface.mean_curvature() - spontaneous_curvature).square() * surface.area_weight()).sum();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,25 @@ void check_markers(const Array& array, const char* name, Eigen::Index markers) {
   std::ostringstream message;
   message << name << " has " << array.rows() << " rows: must be one per marker, " << markers;
   throw std::invalid_argument(message.str());
+}
+
+/// Throws std::domain_error that names the first marker with a value that is not finite. `value` with its article: "a velocity".
+template <class Array>
+void check_finite(const Array& array, const char* value) {
+  if ((0 * array).sum() == 0) return;  // 0 x is NaN for an x that is not finite, and no sum of zeros overflows
+  Eigen::Index marker = 0;
+  while (array.row(marker).isFinite().all()) ++marker;
+  throw std::domain_error("marker " + std::to_string(marker) + " of " + std::to_string(array.rows()) + " has " + value +
+                          " that is not finite");
+}
+
+/// Throws std::invalid_argument unless all areas, of which there is at least one, are finite and > 0.
+template <class Array>
+void check_areas(const Array& areas, const char* name) {
+  const double smallest = areas.template minCoeff<Eigen::PropagateNaN>();
+  check_argument(smallest > 0, name, smallest, "finite and > 0");
+  const double largest = areas.maxCoeff();
+  check_argument(std::isfinite(largest), name, largest, "finite and > 0");
 }
 
 }  // namespace vesiflow::vesicle

@@ -58,12 +58,14 @@ void ConservationProjection::add(const Surface& surface, const Eigen::Vector2d& 
 }
 
 void ConservationProjection::correct_velocity(const Surface& surface, double dt, VectorField& velocity) {
-  check_argument(dt > 0, "dt", dt, "> 0");
+  check_argument(std::isfinite(dt) && dt > 0, "dt", dt, "finite and > 0");
   check_markers(velocity, "velocity", surface.grid().size());
+  check_finite(velocity, "a velocity");
   Eigen::Vector2d missing = Eigen::Vector2d::Zero();
   if (conserved_.volume) missing[0] = (*conserved_.volume - surface.volume()) / dt - surface.flux(velocity);
   if (conserved_.area) missing[1] = (*conserved_.area - surface.area()) / dt - area_rate(surface, velocity);
-  if (!missing.allFinite()) throw std::domain_error("the velocity of the markers is not finite");
+  if (!missing.allFinite())
+    throw std::domain_error("the correction of the velocity would not be finite: is the time step too small?");
   add(surface, multipliers(surface, missing), velocity);
 }
 

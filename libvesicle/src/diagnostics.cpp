@@ -25,6 +25,11 @@ void fit_ellipsoid(VolumeMoments& moments) {
   }
 }
 
+/// Not so of a membrane that has turned inside out or crosses itself.
+bool are_of_a_body(const VolumeMoments& moments) {
+  return moments.volume > 0 && moments.semi_axes.allFinite() && moments.semi_axes[2] > 0;
+}
+
 }  // namespace
 
 VolumeMoments volume_moments(const Surface& surface) {
@@ -55,10 +60,14 @@ VolumeMoments volume_moments(const Surface& surface) {
 double deformation(const VolumeMoments& moments) {
   const double longest = moments.semi_axes[0];
   const double shortest = moments.semi_axes[2];
+  check_argument(std::isfinite(longest) && longest > 0, "longest semi-axis", longest, "finite and > 0");
+  check_argument(shortest >= 0 && shortest <= longest, "shortest semi-axis", shortest, "in [0, longest]");
   return (longest - shortest) / (longest + shortest);
 }
 
 double excess_area(double area, double volume) {
+  check_argument(std::isfinite(area) && area > 0, "area", area, "finite and > 0");
+  check_argument(std::isfinite(volume) && volume > 0, "volume", volume, "finite and > 0");
   const double radius = std::cbrt(3 * volume / (4 * std::numbers::pi));
   return area / (radius * radius) - 4 * std::numbers::pi;
 }
@@ -74,7 +83,9 @@ double inclination_angle(const VolumeMoments& moments) {
 }
 
 double tank_treading_frequency(const Surface& surface, const Vector3& centroid, const VectorField& velocity) {
+  check_argument(centroid.allFinite(), "centroid", centroid.transpose(), "finite");
   check_markers(velocity, "velocity", surface.grid().size());
+  check_finite(velocity, "a velocity");
   constexpr double excluded_radius = 1e-3;
   const VectorField& x = surface.positions();
   const ScalarField& areas = surface.area_weight();
@@ -106,15 +117,15 @@ Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity
   Diagnostics d;
   d.area = surface.area();
   d.volume = surface.volume();
-  d.reduced_volume = reduced_volume(d.area, d.volume);
-  d.excess_area = excess_area(d.area, d.volume);
+  d.reduced_volume = d.volume > 0 ? reduced_volume(d.area, d.volume) : undefined;
+  d.excess_area = d.volume > 0 ? excess_area(d.area, d.volume) : undefined;
   d.area_error = d.area / membrane.initial_area() - 1;
   d.volume_error = d.volume / membrane.initial_volume() - 1;
   d.centroid = moments.centroid;
   d.second_moments = moments.second_moments;
   d.semi_axes = moments.semi_axes;
   d.directions = moments.directions;
-  d.deformation = deformation(moments);
+  d.deformation = are_of_a_body(moments) ? deformation(moments) : undefined;
   d.inclination_angle = inclination_angle(moments);
   d.tank_treading_frequency = tank_treading_frequency(surface, moments.centroid, marker_velocity);
   d.surface_divergence_max = surface.max_divergence(mesh_velocity);

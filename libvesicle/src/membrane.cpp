@@ -22,11 +22,6 @@ const MembraneParameters& checked(const MembraneParameters& p) {
   return p;
 }
 
-void check_areas(const ScalarField& areas, const char* name) {
-  check_argument((areas > 0).all(), name, areas.minCoeff<Eigen::PropagateNaN>(), "finite and > 0");
-  check_argument(areas.isFinite().all(), name, areas.maxCoeff(), "finite and > 0");
-}
-
 int normal_degrees(const MembraneParameters& p, int latitudes) {
   return p.normal_degrees == 0 ? two_thirds_degrees(latitudes) : p.normal_degrees;
 }
@@ -100,6 +95,7 @@ void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorFie
 void Membrane::advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
                        double dt) {
   check_markers(new_positions, "new_positions", positions_.rows());
+  check_finite(new_positions, "a new position");
   if (tension_force_) target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
   positions_ = new_positions;
 }

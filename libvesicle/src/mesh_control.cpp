@@ -45,6 +45,7 @@ MeshFilter::MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_deg
 void MeshFilter::apply(const Surface& surface, const VectorField& velocity, VectorField& filtered) {
   check_markers(velocity, "velocity", part_.rows());
   check_markers(surface.normal(), "surface", part_.rows());
+  check_finite(velocity, "a velocity");
   filtered.resize(part_.rows(), 3);
   if (order_ == FilterOrder::velocity_first)
     filter_velocity(surface.normal(), velocity, filtered);
@@ -98,9 +99,9 @@ void TargetAreaUpdate::apply(const Surface& surface, const VectorField& velocity
   surface.divergence(slip_, slip_divergence_);
   slip_divergence_ = target_areas * (dt * slip_divergence_).exp();
   const double scale = total_area / slip_divergence_.sum();
-  if (!(std::isfinite(scale) && scale > 0))
+  if (!(std::isfinite(scale) && scale * slip_divergence_.minCoeff() > 0))
     throw std::domain_error(
-        "the target areas would not be finite: is the velocity, and is the time step small enough?");
+        "the target areas would not all be finite and > 0: is the velocity finite, and is the time step small enough?");
   target_areas = scale * slip_divergence_;
 }
 

@@ -209,6 +209,7 @@ double MeshRedistribution::truncate() {
 
 void MeshRedistribution::carry(ScalarField& field) const {
   check_markers(field, "field", surface_.grid().size());
+  check_finite(field, "a value");
   surface_.harmonics().analysis(field, coefficients_);
   evaluation_.values_at(coefficients_, map_, field);
 }

@@ -119,6 +119,8 @@ EnclosedMoments enclosed_moments(const Coefficients& coefficients) {
 }  // namespace
 
 double reduced_volume(double area, double volume) {
+  check_argument(std::isfinite(area) && area > 0, "area", area, "finite and > 0");
+  check_argument(std::isfinite(volume) && volume > 0, "volume", volume, "finite and > 0");
   return 6 * std::sqrt(pi) * volume / (area * std::sqrt(area));
 }
 

@@ -1,8 +1,6 @@
 #include "vesicle/surface.h"
 
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #include "check.h"
 
@@ -15,14 +13,6 @@ const SphereGrid& checked(const SphereGrid& grid) {
   check_argument(grid.latitudes() >= 4 && grid.latitudes() <= Surface::largest_latitudes, "latitudes", grid.latitudes(),
                  "in [4, 512]");
   return grid;
-}
-
-void check_finite(const VectorField& positions) {
-  if (positions.isFinite().all()) return;
-  for (Eigen::Index k = 0; k < positions.rows(); ++k)
-    if (!positions.row(k).isFinite().all())
-      throw std::domain_error("marker " + std::to_string(k) + " of " + std::to_string(positions.rows()) +
-                              " has a position that is not finite");
 }
 
 }  // namespace
@@ -51,7 +41,7 @@ Surface& Surface::operator=(Surface&&) noexcept = default;
 
 void Surface::update(const VectorField& positions, GeometryDetail detail) {
   check_markers(positions, "positions", grid_.size());
-  check_finite(positions);
+  check_finite(positions, "a position");
   area_ = volume_ = std::numeric_limits<double>::quiet_NaN();  // what remains if the mesh is degenerate
   positions_ = positions;
   harmonics_.analysis(positions_, coefficients_);
@@ -112,6 +102,8 @@ void Surface::divergence(const VectorField& vector, ScalarField& result) const {
 }
 
 double Surface::max_divergence(const VectorField& vector) const {
+  check_markers(vector, "vector", grid_.size());
+  check_finite(vector, "a vector");  // the largest of an array may pass over a NaN
   divergence(vector, work_->divergence);
   return work_->divergence.abs().maxCoeff();
 }

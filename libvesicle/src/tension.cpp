@@ -9,7 +9,7 @@ namespace {
 
 void check_target_areas(const ScalarField& target_areas, const Surface& surface) {
   check_markers(target_areas, "target_areas", surface.grid().size());
-  check_argument((target_areas > 0).all(), "a target area", target_areas.minCoeff<Eigen::PropagateNaN>(), "> 0");
+  check_areas(target_areas, "a target area");
 }
 
 }  // namespace
@@ -29,7 +29,9 @@ void TensionForce::evaluate(const Surface& surface, const ScalarField& target_ar
 }
 
 void TensionForce::add_to(const Surface& surface, const ScalarField& tension, VectorField& force) {
+  check_markers(tension, "tension", surface.grid().size());
   check_markers(force, "force", surface.grid().size());
+  check_finite(tension, "a tension");
   if (parameters_.form == TensionForm::divergence) {
     surface.projector_divergence(tension, force_);
   } else {

@@ -115,7 +115,7 @@ TEST(NavierStokes, VelocityOnTheWallsIsTheDataAtTheTimeOfTheVelocity) {
 
 TEST(NavierStokes, StokesFlowIsLinearInTheForce) {
   FluidParameters parameters;
-  parameters.convection = false;
+  parameters.inertia = Inertia::unsteady;
   NavierStokes one(grids[1], parameters, no_slip);
   NavierStokes two(grids[1], parameters, no_slip);
   set_random_force(one, 3);
@@ -195,7 +195,7 @@ TEST(NavierStokes, MemoryEstimateIsAFewDozenNumbersPerCellAndLessWithoutConvecti
   FluidParameters parameters;
   const Grid grid({0, 0, 0}, {1, 1, 1}, {128, 128, 128});
   const auto full = static_cast<double>(NavierStokes::estimate_memory(grid, parameters));
-  parameters.convection = false;
+  parameters.inertia = Inertia::unsteady;
   const auto stokes = static_cast<double>(NavierStokes::estimate_memory(grid, parameters));
   const double field = 8.0 * static_cast<double>(grid.cell_count());
   EXPECT_NEAR(full / field, 14.0, 1.5);

@@ -1,7 +1,6 @@
 #include "vesicle/conservation.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -108,12 +107,29 @@ TEST_F(Conservation, RefusesBadArguments) {
   EXPECT_THROW(ConservationProjection(surface.grid(), {0.0, std::nullopt}), std::invalid_argument);
   EXPECT_THROW(ConservationProjection(surface.grid(), {1.0, std::nan("")}), std::invalid_argument);
   ConservationProjection projection(surface.grid(), {surface.volume(), std::nullopt});
-  EXPECT_THROW(projection.correct_velocity(surface, 0, motion), std::invalid_argument);
+  const VectorField before = motion;
+  for (const double wrong : {0.0, -1.0, std::nan(""), double{INFINITY}})
+    EXPECT_THROW(projection.correct_velocity(surface, wrong, motion), std::invalid_argument);
+  ConservationProjection larger(surface.grid(), {2 * surface.volume(), std::nullopt});
+  EXPECT_THROW(larger.correct_velocity(surface, 1e-320, motion), std::domain_error);
+  EXPECT_TRUE((motion == before).all());
   VectorField short_field = VectorField::Zero(3, 3);
   EXPECT_THROW(projection.correct_velocity(surface, 1, short_field), std::invalid_argument);
   // Half the volume at the same area is no small correction; the sphere's area is the least.
   ConservationProjection impossible(surface.grid(), {surface.volume(), 0.5 * surface.area()});
   EXPECT_THROW(impossible.correct_displacement(surface, motion), std::domain_error);
+}
+
+TEST_F(Conservation, RefusesAMotionThatIsNotFinite) {
+  for (const Conserved& conserved : {Conserved{surface.volume(), std::nullopt}, Conserved{std::nullopt, surface.area()},
+                                     Conserved{surface.volume(), surface.area()}, Conserved{}}) {
+    ConservationProjection projection(surface.grid(), conserved);
+    testing::expect_refused_if_not_finite(motion,
+                                          [&](VectorField& u) { projection.correct_velocity(surface, 0.1, u); });
+    if (conserved.volume || conserved.area)
+      testing::expect_refused_if_not_finite(motion,
+                                            [&](VectorField& d) { projection.correct_displacement(surface, d); });
+  }
 }
 
 /// Area and volume of a nearly spherical shape leave no room for a displacement that is larger than its deviation.
@@ -129,8 +145,6 @@ TEST(ConservationProjection, SaysWhenCorrectionsDiverge) {
     } catch (const std::domain_error& error) {
       EXPECT_NE(std::string(error.what()).find("volume and area"), std::string::npos) << error.what();
     }
-    displacement(5, 1) = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_THROW(projection.correct_velocity(surface, 0.1, displacement), std::domain_error);
   }
 }
 

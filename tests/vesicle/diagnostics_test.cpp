@@ -112,5 +112,50 @@ TEST(Diagnostics, MeasuresAStretchedMembrane) {
   EXPECT_TRUE(std::isnan(d.inclination_angle));
 }
 
+TEST(Diagnostics, ClosedFormsRefuseWhatNoBodyHas) {
+  for (const double wrong : {0.0, -1.0, std::nan(""), double{INFINITY}}) {
+    EXPECT_THROW(reduced_volume(1, wrong), std::invalid_argument);
+    EXPECT_THROW(reduced_volume(wrong, 1), std::invalid_argument);
+    EXPECT_THROW(excess_area(1, wrong), std::invalid_argument);
+    EXPECT_THROW(excess_area(wrong, 1), std::invalid_argument);
+  }
+  VolumeMoments moments;
+  EXPECT_THROW(deformation(moments), std::invalid_argument);
+  for (const double wrong : {-1.0, 3.0, std::nan("")}) {
+    moments.semi_axes = {2, 1, wrong};
+    EXPECT_THROW(deformation(moments), std::invalid_argument);
+  }
+  moments.semi_axes = {2, 1, 0};  // a disc
+  EXPECT_EQ(deformation(moments), 1);
+}
+
+TEST(Diagnostics, RefuseVelocitiesThatAreNotFinite) {
+  const SphereGrid grid(8);
+  const VectorField x = ellipsoid(grid, {1, 1.2, 1.5});
+  Membrane membrane(x, 8, {.sigma0 = 10});
+  const Surface& surface = membrane.surface();
+  using Field = const VectorField&;
+  testing::expect_refused_if_not_finite(x, [&](Field u) { tank_treading_frequency(surface, Vector3::Zero(), u); });
+  testing::expect_refused_if_not_finite(x, [&](Field u) { surface.max_divergence(u); });
+  testing::expect_refused_if_not_finite(x, [&](Field u) { measure(membrane, u, x); });
+  testing::expect_refused_if_not_finite(x, [&](Field u) { measure(membrane, x, u); });
+  EXPECT_THROW(tank_treading_frequency(surface, {0, 0, std::nan("")}, x), std::invalid_argument);
+}
+
+TEST(Diagnostics, OfAMembraneTurnedInsideOut) {
+  const SphereGrid grid(latitudes);
+  VectorField x = ellipsoid(grid, {1, 1.2, 1.5});
+  Membrane membrane(x, latitudes, {.sigma0 = 0});
+  const double volume = membrane.initial_volume();
+  const VectorField still = VectorField::Zero(grid.size(), 3);
+  x.col(0) *= -1;
+  membrane.advance(x, still, still, 0.1);
+  membrane.update_geometry();
+  const Diagnostics d = measure(membrane, still, still);
+  EXPECT_NEAR(d.volume, -volume, 1e-12 * volume);
+  EXPECT_NEAR(d.volume_error, -2, 1e-12);
+  EXPECT_TRUE(std::isnan(d.reduced_volume) && std::isnan(d.excess_area) && std::isnan(d.deformation));
+}
+
 }  // namespace
 }  // namespace vesiflow::vesicle

@@ -195,12 +195,31 @@ TEST_F(Forces, RefuseBadArguments) {
   }
   ScalarField sigma;
   EXPECT_THROW(TensionForce({.sigma0 = 1}).evaluate(surface, ScalarField::Ones(3), sigma), std::invalid_argument);
-  for (const double wrong : {0.0, -1.0, std::nan("")}) {
+  EXPECT_THROW(bending_energy(surface, std::nan("")), std::invalid_argument);
+  for (const double wrong : {0.0, -1.0, std::nan(""), double{INFINITY}}) {
     ScalarField target = surface.area_weight();
     target[11] = wrong;
     EXPECT_THROW(TensionForce({.sigma0 = 1}).evaluate(surface, target, sigma), std::invalid_argument);
     EXPECT_THROW(TensionForce({.sigma0 = 1}).energy(surface, target), std::invalid_argument);
   }
+}
+
+TEST_F(Forces, RefuseATensionThatIsNotFinite) {
+  for (const TensionForm form : {TensionForm::divergence, TensionForm::non_divergence}) {
+    TensionForce tension_force({.sigma0 = 1, .form = form});
+    const VectorField before = force;
+    testing::expect_refused_if_not_finite(
+        surface.area_weight(), [&](const ScalarField& tension) { tension_force.add_to(surface, tension, force); });
+    EXPECT_THROW(tension_force.add_to(surface, ScalarField::Ones(3), force), std::invalid_argument);
+    EXPECT_TRUE((force == before).all());
+    // Finite, though their sum is not: what is large is not refused.
+    EXPECT_NO_THROW(tension_force.add_to(surface, ScalarField::Constant(force.rows(), 1e306), force));
+    force = before;
+  }
+}
+
+TEST_F(Forces, AreaRateRefusesAVelocityThatIsNotFinite) {
+  testing::expect_refused_if_not_finite(surface.normal(), [&](const VectorField& u) { area_rate(surface, u); });
 }
 
 }  // namespace

@@ -123,6 +123,24 @@ TEST(Membrane, RefusesBadArguments) {
   EXPECT_THROW(membrane.restore(state), std::invalid_argument);
 }
 
+TEST(Membrane, AStepThatIsNotFiniteIsRefusedAndChangesNothing) {
+  const SphereGrid grid(8);
+  for (const double sigma0 : {0.0, 100.0}) {
+    Membrane membrane(prolate(grid, 0.9), 8, {.sigma0 = sigma0});
+    const MembraneState good = membrane.state();
+    const VectorField x = 1.01 * good.positions;
+    VectorField u = testing::smooth_vector(grid, 4, 5), filtered;
+    membrane.filter_velocity(u, 0.1, filtered);
+    testing::expect_refused_if_not_finite(u, [&](const VectorField& v) {
+      VectorField unused;
+      membrane.filter_velocity(v, 0.1, unused);
+    });
+    testing::expect_refused_if_not_finite(x, [&](const VectorField& y) { membrane.advance(y, u, filtered, 0.1); });
+    EXPECT_TRUE((membrane.positions() == good.positions).all());
+    EXPECT_TRUE((membrane.target_areas() == good.target_areas).all());
+  }
+}
+
 TEST(Membrane, ARefusedStateChangesNothing) {
   const SphereGrid grid(8);
   Membrane membrane(prolate(grid, 0.9), 8, {});

@@ -129,6 +129,20 @@ TEST(TargetAreaUpdate, DealiasedSlipIgnoresHighDegrees) {
   EXPECT_GT(change(SlipReference::interpolated), 1e-6);
 }
 
+TEST(MeshFilter, RefusesAVelocityThatIsNotFinite) {
+  Surface surface(8);
+  surface.update(ellipsoid(surface.grid(), {1, 1.2, 1.5}));
+  for (const FilterOrder order : {FilterOrder::velocity_first, FilterOrder::components}) {
+    MeshFilter filter(surface.grid(), order, 6, 1);
+    VectorField filtered;
+    filter.apply(surface, smooth_vector(surface.grid(), 4, 1), filtered);
+    const VectorField before = filtered;
+    testing::expect_refused_if_not_finite(surface.normal(),
+                                          [&](const VectorField& u) { filter.apply(surface, u, filtered); });
+    EXPECT_TRUE((filtered == before).all());
+  }
+}
+
 /// Markers sliding on a membrane at rest keep their strain: dA0 follows dA with an O(dt^2) error per step.
 TEST(TargetAreaUpdate, FollowsTheSlidingMesh) {
   const auto strain = [](double dt) {
@@ -158,6 +172,15 @@ TEST(TargetAreaUpdate, RefusesWhatWouldNotBeFinite) {
   ScalarField areas = surface.area_weight();
   EXPECT_THROW(update.apply(surface, broken, u, 0.1, surface.area(), areas), std::domain_error);
   EXPECT_THROW(update.apply(surface, u, zero, 1e6, surface.area(), areas), std::domain_error);
+  EXPECT_TRUE((areas == surface.area_weight()).all());
+  for (const double wrong : {0.0, -1.0, std::nan("")}) {  // an area of zero stays zero, beside others that are finite
+    areas = surface.area_weight();
+    areas[3] = wrong;
+    EXPECT_THROW(update.apply(surface, u, u, 0.1, surface.area(), areas), std::domain_error);
+  }
+  areas = surface.area_weight();
+  for (const double wrong : {0.0, -1.0, std::nan(""), double{INFINITY}})
+    EXPECT_THROW(update.apply(surface, u, u, 0.1, wrong, areas), std::domain_error);
   EXPECT_TRUE((areas == surface.area_weight()).all());
 }
 

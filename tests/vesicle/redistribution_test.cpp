@@ -187,6 +187,8 @@ TEST(MeshRedistribution, RefusesAnotherMesh) {
   EXPECT_THROW(MeshRedistribution(latitudes, latitudes + 1), std::invalid_argument);
   ScalarField field(3);
   EXPECT_THROW(redistribution.carry(field), std::invalid_argument);
+  testing::expect_refused_if_not_finite(ScalarField(redistribution.map().col(0)),
+                                        [&](ScalarField& f) { redistribution.carry(f); });
 }
 
 TEST(RedistributionLimits, EitherCounts) {

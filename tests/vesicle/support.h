@@ -2,8 +2,12 @@
 
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <random>
+#include <stdexcept>
+#include <string>
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "vesicle/shapes.h"
@@ -42,6 +46,23 @@ inline VectorField cross(const Vector3& omega, const VectorField& x) {
     result.row(k) = omega.cross(r).transpose().array();
   }
   return result;
+}
+
+/// Calls use(field) with `field` spoilt in one entry, by NaN and by infinities of both signs, and expects each time that it is
+/// refused by a std::domain_error that names the marker.
+template <class Field, class Use>
+void expect_refused_if_not_finite(const Field& field, const Use& use) {
+  const Eigen::Index marker = field.rows() / 3, last = field.cols() - 1;
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), double{INFINITY}, -double{INFINITY}}) {
+    Field spoilt = field;
+    spoilt(marker, last) = wrong;
+    try {
+      use(spoilt);
+      ADD_FAILURE() << wrong << " was taken";
+    } catch (const std::domain_error& error) {
+      EXPECT_EQ(std::string(error.what()).find("marker " + std::to_string(marker) + " of "), 0u) << error.what();
+    }
+  }
 }
 
 /// r = 1 + exp(-3 Re Y_3^2).

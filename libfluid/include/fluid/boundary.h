@@ -1,4 +1,5 @@
-// Velocity on the walls of the box: sampled from a function, checked, and imposed on staggered fields.
+// Velocity on the walls of the box: sampled from a function, checked, and imposed on staggered fields, together with
+// the repetition across periodic axes.
 #pragma once
 
 #include <array>
@@ -13,24 +14,25 @@ namespace vesiflow::fluid {
 // Velocity of the walls (dimensionless) at a position on a wall and a time.
 using BoundaryVelocity = std::function<Vector3(const Vector3& position, double time)>;
 
-// The Dirichlet data of the fluid velocity u on the six walls.
+// The Dirichlet data of the fluid velocity u on the walls: two for every axis that is not periodic.
 //
 // A component normal to a wall has faces on it and takes the wall's value there. A tangential component has
 // points half a cell away on either side: its ghost is 2 * wall - interior. Ghosts beyond normal faces follow
 // the same line, 2 * wall face - inner face, and so do edges and corners, so that a linear flow is continued
-// exactly.
+// exactly. Across a periodic axis ghosts are the points of the other end.
 //
 // Steady data is sampled once; other data at each call of evaluate() with a new time.
 class WallVelocity {
  public:
   // Samples the function at time zero; throws what evaluate() throws, and std::invalid_argument for an empty
-  // function.
+  // function (which is right only if there are no walls).
   WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool steady);
 
   // Samples the function at the given time, unless it is steady. An incompressible fluid needs zero net flux
   // through the walls. Data that has it is sampled at face centres with an error O(h^2); such a remainder is
   // spread evenly over all the walls' normal velocity. Throws std::invalid_argument with the flux if it is
-  // more than max_relative_flux of the flux of |u.n|, or if a value is not finite.
+  // more than max_relative_flux of the flux of |u.n|, if a value is not finite, or if the function differs at the two
+  // ends of a periodic axis.
   void evaluate(double time);
   static constexpr double max_relative_flux = 0.01;
 
@@ -39,9 +41,9 @@ class WallVelocity {
   // Net outward flux of the sampled data, before the remainder was taken out.
   double net_flux() const { return net_flux_; }
 
-  // Sets the faces on walls.
+  // Sets the faces on walls, and on periodic axes the last face, which is the first.
   void set_normal_faces(FaceVector& u) const;
-  // Sets all ghosts from the walls and the points inside; the faces on walls must have been set.
+  // Sets all ghosts from the walls and the points inside; the faces of set_normal_faces() must have been set.
   void fill_ghosts(FaceVector& u) const;
   // Adds mu times the part of the 7-point Laplacian of each component that comes from the walls to the
   // unknowns of rhs: what the homogeneous operator of EllipticProblem leaves out.
@@ -58,15 +60,19 @@ class WallVelocity {
     double at(int a, int b) const { return values[static_cast<std::size_t>((b + 1) * (extent[0] + 2) + a + 1)]; }
   };
   const Plane& plane(int component, int axis, int side) const { return planes_[component * 6 + axis * 2 + side]; }
+  void sample_all();
   void sample(Plane& plane) const;
+  double sampled_at(const Vector3& position, int component) const;
+  void check_periodicity(const Plane& plane) const;
   void balance_flux();
+  void fill_wall_ghosts(const Plane& wall, const View& field) const;
 
   Grid grid_;
   BoundaryVelocity velocity_;
   bool steady_;
   double time_ = 0.0;
   double net_flux_ = 0.0;
-  std::vector<Plane> planes_;
+  std::vector<Plane> planes_;  // those on walls are sampled
 };
 
 }  // namespace vesiflow::fluid

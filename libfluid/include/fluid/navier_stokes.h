@@ -6,20 +6,38 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "fluid/boundary.h"
 #include "fluid/elliptic_solver.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
+#include "fluid/viscosity.h"
 
 namespace vesiflow::fluid {
 
+class Stepper;
+
+// Which terms of Re [du/dt + (u.grad)u] are kept: both; the first (unsteady Stokes); none (quasi-steady Stokes flow: every
+// step is a Stokes problem by itself). Nothing is spent on what is left out.
+enum class Inertia { full, unsteady, none };
+
+// How the viscous term div(mu (grad u + grad u^T)) is taken where mu is a field; mu_ref is its largest value.
+//   explicit_      mu_ref Lap u* + div((mu - mu_ref)(grad u^k + grad u^k^T)), the paper's: an error O(ratio dt)
+//   extrapolated   the same with (1+r) u^k - r u^{k-1} in the place of u^k: second order
+//   implicit       div(mu (grad u* + grad u*^T)): a coupled solve, by a variable-coefficient solver
+// The choice of inertia = none is always implicit.
+enum class ViscousTreatment { explicit_, extrapolated, implicit };
+
 struct FluidParameters {
   double reynolds_number = 1.0;
-  double viscosity = 1.0;  // mu, of the implicit viscous term, in units of the reference viscosity
-  bool convection = true;  // without it the unsteady Stokes equations are solved, and nothing is spent on it
+  // mu, in units of the reference viscosity. The values of a field are read in every step, ghosts included: the owner may
+  // change them between steps.
+  Viscosity viscosity = 1.0;
+  ViscousTreatment viscous_treatment = ViscousTreatment::extrapolated;
+  Inertia inertia = Inertia::full;
   SolverOptions pressure_solver = FftOptions{};
-  SolverOptions velocity_solver = FftOptions{};
+  SolverOptions velocity_solver = AutoOptions{};
 };
 
 // The time levels of a state: velocity() is at time, previous_velocity() at previous_time.
@@ -33,11 +51,18 @@ struct FluidClock {
 // Wall seconds since construction.
 struct FluidTimings {
   double convection = 0.0;  // the explicit right-hand side, convection included
-  double momentum = 0.0;    // the three velocity solves
+  double viscous = 0.0;     // what a field of viscosity costs beside its solves: explicit term, updates of the solver
+  double momentum = 0.0;    // the velocity solve
   double projection = 0.0;  // divergence, pressure solve, correction, walls
 };
 
-// Solves   Re [du/dt + (u.grad)u] = -grad p + mu Lap u + f,   div u = 0,   u given on the walls.
+// The solves of the last step.
+struct FluidReport {
+  SolveReport momentum, pressure;
+};
+
+// Solves   Re [du/dt + (u.grad)u] = -grad p + div(mu (grad u + grad u^T)) + f,   div u = 0,
+// u given on the walls, all fields repeating across periodic axes.
 //
 // One step (paper, Section 3.3, Step 3; Guermond, Minev & Shen 2006, doi:10.1016/j.cma.2005.10.010), equal steps:
 //   Re [(3u* - 4u^k + u^{k-1}) / (2dt) + 2N(u^k) - N(u^{k-1})] = -grad p^k + mu Lap u* + f,   u* = u^{k+1} on the walls
@@ -48,12 +73,16 @@ struct FluidTimings {
 // The first step is backward Euler: Re [(u* - u^0)/dt + N(u^0)], a = Re / dt. The pressure starts at zero,
 // and its mean stays zero.
 //
+// With a field mu the viscous term is that of ViscousTreatment, and the last term of the pressure is -mu_ref div u* if it
+// is explicit in part, -2 mu div u* if it is implicit: the viscous force of grad phi / a is a gradient in the first case
+// by mu_ref Lap, in the second by div(2 mu grad grad), so that grad p then balances it (exactly where mu is constant).
+//
 // Second order in space and, for u, in time. div u = 0 to round-off. Same bits for every number of threads.
 class NavierStokes {
  public:
-  // At rest inside, moving as told on the walls, at time zero. Throws std::invalid_argument for parameters
+  // At rest inside, moving as told on the walls (if there are any), at time zero. Throws std::invalid_argument for parameters
   // out of range, wall data with a net flux (WallVelocity) and solvers that are not available.
-  NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary,
+  NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary = nullptr,
                bool steady_boundary = true);
   ~NavierStokes();
   NavierStokes(NavierStokes&&) noexcept;
@@ -76,15 +105,15 @@ class NavierStokes {
 
   // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver
   // for the exception). Throws
-  // std::invalid_argument unless dt > 0 is finite, and std::runtime_error, with the step and the time, if the
-  // solution is not finite; the state is then lost.
+  // std::invalid_argument unless dt > 0 is finite and a field of viscosity is > 0, and std::runtime_error, with the step
+  // and the time, if the solution is not finite or a solver has not converged; the state is then lost.
   void step(double dt);
 
   // Velocity now and one step ago (the same before the first step); faces on walls and ghosts are set from
   // the walls at the respective time.
   const FaceVector& velocity() const;
   const FaceVector& previous_velocity() const;
-  // Pressure at cell centres, of zero mean. Its ghosts are not set.
+  // Pressure at cell centres, of zero mean. Its ghosts are those of extend_to_ghosts().
   const Field<Cell>& pressure() const;
 
   const FluidClock& clock() const;
@@ -94,12 +123,15 @@ class NavierStokes {
   const Grid& grid() const;
   const FluidParameters& parameters() const;
   const FluidTimings& timings() const;
+  const FluidReport& report() const;
+  // Names of the solvers in use, as "fft" or "pcg+fft".
+  std::string velocity_solver_name() const;
+  std::string pressure_solver_name() const;
 
   // Bytes that an object for this grid takes, solvers included. Nothing is allocated.
   static std::size_t estimate_memory(const Grid& grid, const FluidParameters& parameters);
 
  private:
-  class Stepper;
   std::unique_ptr<Stepper> stepper_;
 };
 

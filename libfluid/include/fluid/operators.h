@@ -1,6 +1,7 @@
 // Second-order difference operators of the staggered grid.
 //
-// Face results are set on the unknowns (inner faces); faces on walls and ghosts are left as they are. All
+// Face results are set on the unknowns (inner faces, and on periodic axes all but the last, which is the first again);
+// faces on walls and ghosts are left as they are. All
 // loops are parallel, and give the same bits for every number of threads.
 #pragma once
 
@@ -9,11 +10,12 @@
 namespace vesiflow::fluid {
 
 // g = grad p: differences of neighbouring cells. With zero g on the walls, <g, u> = -<p, div u> for every u
-// that vanishes on the walls (sums over points): gradient and divergence are adjoint up to the sign.
+// that vanishes on the walls (sums over unknowns): gradient and divergence are adjoint up to the sign. Reads the ghosts
+// of p across periodic axes (see extend_to_ghosts).
 void gradient(const Field<Cell>& p, FaceVector& g);
 
-// d = div u at cell centres, from the six faces of each cell (those on walls included). No ghosts are read or
-// set.
+// d = div u at cell centres, from the six faces of each cell (those on walls included, see
+// WallVelocity::set_normal_faces). No ghosts are read or set.
 void divergence(const FaceVector& u, Field<Cell>& d);
 
 // max |div u| over the cells.

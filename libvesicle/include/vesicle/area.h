@@ -13,6 +13,7 @@ void add_area_penalty(const Surface& surface, double stiffness, double target_ar
 double area_penalty_energy(const Surface& surface, double stiffness, double target_area);
 
 /// dA/dt of markers that move with `velocity`, shape (markers, 3): int 2 H U . n dA.
+/// @throws std::invalid_argument for a wrong size, std::domain_error if the velocity is not finite.
 double area_rate(const Surface& surface, const VectorField& velocity);
 
 }  // namespace vesiflow::vesicle

@@ -8,6 +8,7 @@ namespace vesiflow::vesicle {
 
 /// (1/2) int (H - H0)^2 dA with H the mean of the principal curvatures: 2 pi on any sphere for H0 = 0. The bending energy of
 /// the model is 1/Ca times this. H0 is the spontaneous curvature in the same sense; Helfrich's c_0 is 2 H0.
+/// @throws std::invalid_argument unless H0 is finite.
 double bending_energy(const Surface& surface, double spontaneous_curvature = 0);
 
 struct BendingParameters {

@@ -23,8 +23,8 @@ class ConservationProjection {
 
   /// Velocity, shape (markers, 3): U += (a + 2 H b) n so that afterwards int U . n dA = -(V - V0)/dt and
   /// int 2 H U . n dA = -(A - A0)/dt; moving with U for dt restores both to O(dt^2).
-  /// @throws std::invalid_argument unless dt > 0; std::domain_error if volume and area cannot both be met because H is nearly
-  /// constant (a sphere), or if the velocity is not finite.
+  /// @throws std::invalid_argument unless dt is finite and > 0; std::domain_error if volume and area cannot both be met because
+  /// H is nearly constant (a sphere), or if the velocity or its correction is not finite (the velocity is then as it was).
   void correct_velocity(const Surface& surface, double dt, VectorField& velocity);
 
   /// Displacement D, shape (markers, 3): D += (a + 2 H b) n, with n and H before the move, so that X + D encloses V0 and has

@@ -27,9 +27,11 @@ VolumeMoments volume_moments(const Surface& surface);
 
 /// Taylor's deformation (L - S)/(L + S) of the ellipsoid with the same moments, L and S its longest and shortest semi-axis: 0 for
 /// a sphere, towards 1 for needles and discs.
+/// @throws std::invalid_argument unless L is finite and > 0 and S in [0, L].
 double deformation(const VolumeMoments& moments);
 
 /// A/R^2 - 4 pi with R = (3 V/4 pi)^{1/3}: the area beyond that of the sphere of the same volume, 0 for it.
+/// @throws std::invalid_argument unless both are finite and > 0.
 double excess_area(double area, double volume);
 
 /// Angle of the longest axis in the xz-plane against the x axis, radians in (-pi/2, pi/2]. NaN if the longest
@@ -39,13 +41,16 @@ double inclination_angle(const VolumeMoments& moments);
 /// Eq. (34): area average of |r x V| / |r|^2, with r from the centroid and V relative to the mean velocity of
 /// the membrane, both projected to the xz-plane; markers with |r| < 1e-3 are left out of both sums. NaN if
 /// none is left. velocity: interpolated marker velocity, shape (markers, 3).
+/// @throws std::invalid_argument for a wrong size or a centroid that is not finite, std::domain_error if the velocity is not
+/// finite.
 double tank_treading_frequency(const Surface& surface, const Vector3& centroid, const VectorField& velocity);
 
 /// Fraction of the energy of the position coefficients (degrees n >= 1) in the top third of the degrees, n >=
 /// 2N/3. Near 0 for a resolved shape; growth announces loss of resolution.
 double spectrum_tail(const Surface& surface);
 
-/// What is recorded of a membrane at one time. Errors are relative to the initial values.
+/// What is recorded of a membrane at one time. Errors are relative to the initial values. A membrane that has turned inside out
+/// has no reduced volume, excess area and deformation: NaN.
 struct Diagnostics {
   double area = 0;
   double volume = 0;
@@ -76,6 +81,7 @@ struct Diagnostics {
 /// Measures a membrane at its last geometry. marker_velocity: the interpolated U, for Eq. (34);
 /// mesh_velocity: the velocity whose surface divergence is reported (the paper's Table 3 uses the filtered
 /// one). Both of shape (markers, 3).
+/// @throws std::invalid_argument for a wrong size, std::domain_error if a velocity is not finite.
 Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& mesh_velocity);
 
 }  // namespace vesiflow::vesicle

@@ -74,12 +74,15 @@ class Membrane {
 
   /// filtered = mesh filter of the interpolated velocity, then the volume and area projections if chosen; both
   /// (markers, 3). The arguments must be distinct arrays.
+  /// @throws as MeshFilter::apply and, with a projection, ConservationProjection::correct_velocity.
   void filter_velocity(const VectorField& velocity, double dt, VectorField& filtered);
 
   /// Ends a step: updates the target areas by Eqs. (33) and (32) with the geometry of the old positions
   /// (skipped for sigma0 = 0), then takes the new positions. The geometry stays the old one until
   /// update_geometry(). velocity: interpolated U; filtered: the velocity U~ that moved the markers, as
   /// averaged over the step by the integrator.
+  /// @throws std::invalid_argument for a wrong size, std::domain_error if the new positions are not finite or as
+  /// TargetAreaUpdate::apply. The membrane is then as it was.
   void advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered, double dt);
 
   /// Moves the markers along the membrane to a better mesh, if there is one, with the membrane's own fields: the strains

@@ -30,7 +30,8 @@ class MeshFilter {
   MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_degrees, int tangential_degrees);
 
   /// filtered: shape (markers, 3), resized if needed; must not be `velocity`.
-  /// @throws std::invalid_argument if velocity has the wrong size.
+  /// @throws std::invalid_argument if velocity has the wrong size, std::domain_error if it is not finite (filtered is then as it
+  /// was).
   void apply(const Surface& surface, const VectorField& velocity, VectorField& filtered);
 
  private:
@@ -62,7 +63,8 @@ class TargetAreaUpdate {
   /// One step of Eqs. (33) and (32) with the geometry before the move:
   ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
   /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
-  /// @throws std::invalid_argument for a wrong size, std::domain_error if the result is not finite (target_areas is as it was).
+  /// @throws std::invalid_argument for a wrong size, std::domain_error if a result is not finite and > 0 (target_areas is as it
+  /// was).
   void apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered, double dt,
              double total_area, ScalarField& target_areas);
 

@@ -63,6 +63,7 @@ class MeshRedistribution {
   const VectorField& map() const { return map_; }
 
   /// Carries a smooth material field given at the old markers, shape (markers), to the new ones: field(y(x)).
+  /// @throws std::invalid_argument for a wrong size, std::domain_error if the field is not finite (and as it was).
   void carry(ScalarField& field) const;
 
  private:

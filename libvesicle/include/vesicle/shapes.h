@@ -71,6 +71,7 @@ double prolate_aspect_ratio(double reduced_volume);
 double oblate_aspect_ratio(double reduced_volume);
 
 /// Reduced volume 6 sqrt(pi) V / A^{3/2}: 1 for the sphere.
+/// @throws std::invalid_argument unless both are finite and > 0.
 double reduced_volume(double area, double volume);
 
 }  // namespace vesiflow::vesicle

@@ -70,6 +70,7 @@ class Surface {
   /// Surface divergence of any vector field, tangent or not, Eq. (12).
   void divergence(const VectorField& vector, ScalarField& result) const;
   /// max |div U| over the markers.
+  /// @throws std::invalid_argument for a wrong size, std::domain_error if the vectors are not finite.
   double max_divergence(const VectorField& vector) const;
   /// div(s P), P = I - n n^T, row by row with Eq. (12): the divergence form of Eq. (20). Six distinct fields.
   void projector_divergence(const ScalarField& scalar, VectorField& result) const;

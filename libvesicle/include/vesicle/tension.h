@@ -34,13 +34,15 @@ class TensionForce {
   const TensionParameters& parameters() const { return parameters_; }
 
   /// Tension at the markers for target cell areas of shape (markers).
-  /// @throws std::invalid_argument for a wrong number of target areas, or one that is not > 0.
+  /// @throws std::invalid_argument for a wrong number of target areas, or one that is not finite and > 0.
   void evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const;
 
   /// Adds F_sigma to `force`, shape (markers, 3), force per unit area.
+  /// @throws std::invalid_argument for a wrong size, std::domain_error if the tension is not finite (force is as it was).
   void add_to(const Surface& surface, const ScalarField& tension, VectorField& force);
 
   /// Elastic energy, of which F_sigma is minus the derivative.
+  /// @throws std::invalid_argument as evaluate.
   double energy(const Surface& surface, const ScalarField& target_areas) const;
 
  private:

@@ -1,0 +1,256 @@
+#include "stepper.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "fluid/operators.h"
+#include "message.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+// Adds the wall time of its life to an account.
+class PhaseTimer {
+ public:
+  explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
+  ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  PhaseTimer(const PhaseTimer&) = delete;
+  PhaseTimer& operator=(const PhaseTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_ = Clock::now();
+};
+
+FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
+  const double re = parameters.reynolds_number;
+  if (!(std::isfinite(re) && re > 0.0)) {
+    throw std::invalid_argument(message("fluid: reynolds_number is ", re, "; it must be finite and > 0"));
+  }
+  parameters.viscosity.checked_range();
+  if (!parameters.viscosity.is_constant() && !(parameters.viscosity.field().grid() == grid)) {
+    throw std::invalid_argument("fluid: the field of viscosity is on another grid");
+  }
+  return parameters;
+}
+
+void check_converged(const char* what, const SolveReport& report) {
+  if (report.converged) return;
+  throw std::runtime_error(message("the ", what, " solver stopped after ", report.iterations,
+                                   " iterations at a relative residual of ", report.residual.value_or(0.0)));
+}
+
+template <class FieldType>
+void copy(const FieldType& from, FieldType& to) {
+  std::copy_n(from.data(), from.size(), to.data());
+}
+
+void copy(const FaceVector& from, FaceVector& to) {
+  copy(from.x, to.x);
+  copy(from.y, to.y);
+  copy(from.z, to.z);
+}
+
+double max_abs(const FaceVector& u) {
+  double largest = 0.0;
+  for (const ConstView& field : u.points()) {
+    for (int k = 0; k < field.extent[2]; ++k) {
+      for (int j = 0; j < field.extent[1]; ++j) {
+        for (int i = 0; i < field.extent[0]; ++i) largest = std::max(largest, std::abs(field(i, j, k)));
+      }
+    }
+  }
+  return largest;
+}
+
+
+}  // namespace
+
+EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference) {
+  const bool coupled =
+      !parameters.viscosity.is_constant() && parameters.viscous_treatment == ViscousTreatment::implicit;
+  if (coupled) return EllipticProblem::velocity(grid, EllipticForm::stress, a, parameters.viscosity);
+  return EllipticProblem::velocity(grid, EllipticForm::laplacian, a, mu_reference);
+}
+
+EllipticProblem pressure_problem(const Grid& grid) {
+  return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
+}
+
+Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary,
+                 bool steady_boundary)
+    : grid(grid_),
+      parameters(checked(grid_, parameters_)),
+      walls(grid_, std::move(boundary), steady_boundary),
+      velocity(grid_),
+      previous(grid_),
+      force(grid_),
+      pressure(grid_),
+      pressure_solver(make_elliptic_solver(pressure_problem(grid_), parameters_.pressure_solver)),
+      unit_(grid_, 1.0),
+      viscosity_(grid_, parameters.viscosity),
+      chi_(grid_) {
+  if (parameters.inertia == Inertia::full) convection_.emplace(grid);
+  const bool explicit_stress = parameters.viscous_treatment == ViscousTreatment::explicit_;
+  if (variable_viscosity() && !explicit_stress) extrapolated_.emplace(grid);
+  if (implicit_stress()) {
+    lift_.emplace(grid);
+    walls.set_normal_faces(*lift_);
+    walls.fill_ghosts(*lift_);
+  }
+  start();
+}
+
+// From the inner velocity, whatever it is, to a state at time zero.
+void Stepper::start() {
+  clock = {};
+  pressure.fill(0.0);
+  walls.evaluate(0.0);
+  walls.set_normal_faces(velocity);
+  make_divergence_free();
+  walls.set_normal_faces(velocity);
+  walls.fill_ghosts(velocity);
+  copy(velocity, previous);
+}
+
+void Stepper::make_divergence_free() {
+  const double round_off = 16 * std::numeric_limits<double>::epsilon() * max_abs(velocity) / grid.min_spacing();
+  if (max_divergence(velocity) <= round_off) return;
+  divergence(velocity, chi_);
+  pressure_solver->solve(chi_.unknowns(), chi_.unknowns());
+  remove_divergence(chi_, velocity);
+}
+
+void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& function) {
+  const auto fields = velocity.points();
+  for (int component = 0; component < 3; ++component) {
+    const View& field = fields[component];
+    for (int k = 0; k < field.extent[2]; ++k) {
+      for (int j = 0; j < field.extent[1]; ++j) {
+        for (int i = 0; i < field.extent[0]; ++i) {
+          field(i, j, k) = function(point_position(grid, face_centrings[component], i, j, k))[component];
+        }
+      }
+    }
+  }
+  start();
+}
+
+void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_,
+                                    const Field<Cell>& pressure_, const FluidClock& clock_) {
+  if (!(velocity_.grid() == grid && previous_.grid() == grid && pressure_.grid() == grid)) {
+    throw std::invalid_argument("fluid: the state to restore is on another grid");
+  }
+  if (clock_.steps < 0 || !std::isfinite(clock_.time) || !std::isfinite(clock_.previous_time) ||
+      (clock_.steps > 0 && !(clock_.time_step > 0.0 && std::isfinite(clock_.time_step)))) {
+    throw std::invalid_argument(message("fluid: the state to restore has time ", clock_.time, ", previous time ",
+                                        clock_.previous_time, ", time step ", clock_.time_step, " and step number ",
+                                        clock_.steps, "; they must be finite, and the time step positive"));
+  }
+  clock = clock_;
+  copy(velocity_, velocity);
+  copy(previous_, previous);
+  copy(pressure_, pressure);
+  extend_to_ghosts(pressure);
+  walls.evaluate(clock.previous_time);
+  walls.set_normal_faces(previous);
+  walls.fill_ghosts(previous);
+  if (convection_ && clock.steps > 0) convection(previous, *convection_);
+  walls.evaluate(clock.time);
+  walls.set_normal_faces(velocity);
+  walls.fill_ghosts(velocity);
+}
+
+void Stepper::step(double dt) {
+  if (!(std::isfinite(dt) && dt > 0.0)) {
+    throw std::invalid_argument(message("fluid: the time step is ", dt, "; it must be finite and > 0"));
+  }
+  const StepCoefficients coefficients = step_coefficients(dt, clock.steps > 0 ? clock.time_step : 0.0);
+  const double a = parameters.reynolds_number * coefficients.a0 / dt;
+  walls.evaluate(clock.time + dt);
+  try {
+    update_velocity_solver(a);
+    form_right_hand_side(coefficients, dt);
+    if (variable_viscosity()) add_explicit_stress();
+    solve_momentum();
+    project(a);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(message("fluid: step ", clock.steps + 1, " to time ", clock.time + dt, " with time step ",
+                                     dt, " failed: ", error.what()));
+  }
+  std::swap(velocity, previous);
+  clock = {clock.time + dt, clock.time, dt, clock.steps + 1};
+}
+
+void Stepper::update_velocity_solver(double a) {
+  if (velocity_solver && !variable_viscosity() && velocity_solver->problem().alpha == a) return;
+  const PhaseTimer timer(timings.viscous);
+  reference_viscosity_ = parameters.viscosity.checked_range().max;
+  const EllipticProblem problem = momentum_problem(grid, parameters, a, reference_viscosity_);
+  if (velocity_solver) {
+    velocity_solver->update(problem);
+  } else {
+    velocity_solver = make_elliptic_solver(problem, parameters.velocity_solver);
+  }
+}
+
+// The arrays of the previous velocity take the right-hand side, the provisional and at last the new velocity.
+void Stepper::form_right_hand_side(const StepCoefficients& coefficients, double dt) {
+  if (extrapolated_) extrapolate(velocity, previous, coefficients.b2, *extrapolated_);
+  const PhaseTimer timer(timings.convection);
+  explicit_terms(coefficients, parameters.reynolds_number, dt, velocity, pressure, force,
+                 convection_ ? &*convection_ : nullptr, previous);
+  if (!implicit_stress()) walls.add_diffusion(reference_viscosity_, previous);
+}
+
+// What the operator of the velocity problem leaves out of div(mu (grad u + grad u^T)).
+void Stepper::add_explicit_stress() {
+  const PhaseTimer timer(timings.viscous);
+  if (implicit_stress()) {
+    if (!walls.steady()) {
+      walls.set_normal_faces(*lift_);
+      walls.fill_ghosts(*lift_);
+    }
+    add_stress(*lift_, viscosity_, 0.0, previous);
+  } else {
+    add_stress(extrapolated_ ? *extrapolated_ : velocity, viscosity_, reference_viscosity_, previous);
+  }
+}
+
+void Stepper::solve_momentum() {
+  const PhaseTimer timer(timings.momentum);
+  if (implicit_stress()) {
+    report.momentum = velocity_solver->solve(std::as_const(previous).unknowns(), extrapolated_->unknowns());
+    std::swap(previous, *extrapolated_);
+  } else {
+    report.momentum = velocity_solver->solve(std::as_const(previous).unknowns(), previous.unknowns());
+  }
+  check_converged("velocity", report.momentum);
+}
+
+void Stepper::project(double a) {
+  const PhaseTimer timer(timings.projection);
+  walls.set_normal_faces(previous);
+  divergence(previous, chi_);
+  report.pressure = pressure_solver->solve(std::as_const(chi_).unknowns(), chi_.unknowns());
+  check_converged("pressure", report.pressure);
+  if (implicit_stress()) {
+    correct_velocity_and_pressure(chi_, a, viscosity_, 2.0, previous, pressure);
+  } else {
+    correct_velocity_and_pressure(chi_, a, unit_, reference_viscosity_, previous, pressure);
+  }
+  extend_to_ghosts(pressure);
+  walls.set_normal_faces(previous);
+  walls.fill_ghosts(previous);
+}
+
+std::string Stepper::velocity_solver_name() const {
+  return velocity_solver ? velocity_solver->name() : "none before the first step";
+}
+
+}  // namespace vesiflow::fluid
