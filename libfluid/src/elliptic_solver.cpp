@@ -108,7 +108,7 @@ std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& prob
 
 std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options) {
   return std::visit(
-      Overloaded{[&](const FftOptions&) { return FftSolver::estimate_memory(problem, omp_get_max_threads()); },
+      Overloaded{[&](const FftOptions& fft) { return FftSolver::estimate_memory(problem, fft, omp_get_max_threads()); },
                  [&](const CholmodOptions&) -> std::size_t {
 #ifdef VESIFLOW_WITH_CHOLMOD
                    return CholmodSolver::estimate_memory(problem);

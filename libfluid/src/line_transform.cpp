@@ -7,61 +7,56 @@
 // and backwards, up to the factor 2,  S = cos t y_k + sin t y_{n-k},   D = i (sin t y_k - cos t y_{n-k}).
 // The sine transform is the cosine transform of (-1)^j x_j in reversed order.
 //
+// Waves. Two real lines have the real parts S_k / 2 and the imaginary parts -i D_k / 2.
+//
 // Points j = 1 .. n-1, between walls 0 and n. With u_j = x_j - x_{n-j} and w_j = x_j + x_{n-j}, j = 1 .. n/2,
 //   y_{2k} = 2 sum_{j<n/2} u_j sin(pi j 2k / n),   y_{2k+1} = 2 sum_{j<n/2} w_j sin(pi j (2k+1) / n) + (-1)^k w_{n/2}
 // (the last term if n is even: w counts x_{n/2} twice). If n is even the first is the transform of the points
-// between n/2 intervals, and the second the backward one of n/2 cells. That is repeated until n is odd or small,
-// where the sums are done as they stand: n^2 / 2 multiplications. All factors are at most 2; the well-known
+// between n/2 intervals, and the second the backward one of n/2 cells. That is repeated until n is small, where the
+// sums are done as they stand with n^2 / 2 multiplications, or odd: then the odd extension to a period of 2n points is
+// transformed, twice the work of the even case. All factors are at most 2; the well-known
 // transform by one FFT of period n and a running sum (Numerical Recipes, section 12.4) amplifies round-off near the
 // walls, as n / j.
 #include "line_transform.h"
 
-#include <fftw3.h>
-
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <numbers>
-#include <stdexcept>
 
 #include "aligned_array.h"
+#include "fftw_plan.h"
 #include "lanes.h"
-#include "message.h"
 
 namespace vesiflow::fluid {
 namespace {
-
-// FFTW's planner keeps global state: making and destroying plans must not overlap.
-std::mutex planner_mutex;
 
 fftw_complex* as_complex(double* block) {
   return reinterpret_cast<fftw_complex*>(block);
 }
 
+// How the points between n intervals are transformed.
+enum class PointsMethod { sum, extend, halve };
+
+PointsMethod points_method(int n) {
+  if (n % 2 == 1) return n <= 64 ? PointsMethod::sum : PointsMethod::extend;
+  return n <= 16 ? PointsMethod::sum : PointsMethod::halve;
+}
+
 }  // namespace
 
 struct LineTransform::Plan {
-  Plan(int n, int sign, double* in, double* out) {
-    const std::lock_guard lock(planner_mutex);
-    // ESTIMATE and not MEASURE: a measured plan depends on the load of the machine, and with the plan the order
-    // of the additions. This way a restart in another process gives the same bits, and so does every thread.
-    plan = fftw_plan_many_dft(1, &n, lanes / 2, as_complex(in), nullptr, lanes / 2, 1, as_complex(out), nullptr,
-                              lanes / 2, 1, sign, FFTW_ESTIMATE);
-    if (plan == nullptr) throw std::runtime_error(message("transform: FFTW made no plan for ", n, " points"));
-  }
-  ~Plan() {
-    const std::lock_guard lock(planner_mutex);
-    fftw_destroy_plan(plan);
-  }
-  Plan(const Plan&) = delete;
-  Plan& operator=(const Plan&) = delete;
+  Plan(int n, int sign, double* in, double* out)
+      : many([&] {
+          return fftw_plan_many_dft(1, &n, lanes / 2, as_complex(in), nullptr, lanes / 2, 1, as_complex(out), nullptr,
+                                    lanes / 2, 1, sign, FFTW_ESTIMATE);
+        }) {}
 
-  fftw_plan plan;
+  FftwPlan many;
 };
 
 LineTransform::LineTransform(int length, Basis basis, Direction direction)
     : length_(length),
-      rows_(basis == Basis::sine_points ? length + 1 : length),
+      intervals_(basis == Basis::sine_points ? length + 1 : length),
       basis_(basis),
       direction_(direction),
       input_(length),
@@ -75,8 +70,21 @@ LineTransform::LineTransform(int length, Basis basis, Direction direction)
 
 LineTransform::~LineTransform() = default;
 
+void LineTransform::make_plan(int points, Direction direction) {
+  const AlignedArray in = allocate_aligned(block_size());
+  const AlignedArray out = allocate_aligned(block_size());
+  plan_ = std::make_unique<Plan>(points, direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD, in.get(),
+                                 out.get());
+}
+
 void LineTransform::plan_cells() {
   const int n = length_;
+  make_plan(n, direction_);
+  if (basis_ == Basis::fourier) {
+    for (int i = 0; i < n; ++i) input_[i].offset = lanes * i;
+    output_ = input_;
+    return;
+  }
   for (int k = 0; k <= n / 2; ++k) {
     cosine_.push_back(std::cos(0.5 * std::numbers::pi * k / n));
     sine_.push_back(std::sin(0.5 * std::numbers::pi * k / n));
@@ -89,58 +97,103 @@ void LineTransform::plan_cells() {
     modes[i].offset = lanes * (basis_ == Basis::sine_cells ? n - 1 - i : i);
     if (basis_ == Basis::sine_cells && i % 2 == 1) space[i].sign = -1.0;
   }
-  const AlignedArray in = allocate_aligned(block_size());
-  const AlignedArray out = allocate_aligned(block_size());
-  plan_ = std::make_unique<Plan>(n, forward ? FFTW_FORWARD : FFTW_BACKWARD, in.get(), out.get());
 }
 
 void LineTransform::plan_points() {
-  const int n = rows_;
+  const int n = intervals_;
   for (int i = 0; i < length_; ++i) input_[i].offset = lanes * (i + 1);
-  if (n % 2 == 1 || n <= 16) {
-    output_ = input_;
-    for (int m = 0; m < 2 * n; ++m) sine_.push_back(2.0 * std::sin(std::numbers::pi * m / n));
-    return;
-  }
-  odd_modes_ = std::make_unique<LineTransform>(n / 2, Basis::sine_cells, Direction::backward);
-  even_modes_ = std::make_unique<LineTransform>(n / 2 - 1, Basis::sine_points, direction_);
-  for (int i = 0; i < length_; ++i) {  // mode i + 1
-    const LineTransform& half = i % 2 == 0 ? *odd_modes_ : *even_modes_;
-    output_[i] = half.output()[i / 2];
-    if (i % 2 == 0) output_[i].offset += lanes * (n / 2);
+  output_ = input_;
+  switch (points_method(n)) {
+    case PointsMethod::sum:
+      for (int m = 0; m < 2 * n; ++m) sine_.push_back(2.0 * std::sin(std::numbers::pi * m / n));
+      break;
+    case PointsMethod::extend:
+      make_plan(2 * n, Direction::forward);
+      break;
+    case PointsMethod::halve:
+      odd_modes_ = std::make_unique<LineTransform>(n / 2, Basis::sine_cells, Direction::backward);
+      even_modes_ = std::make_unique<LineTransform>(n / 2 - 1, Basis::sine_points, direction_);
+      for (int i = 0; i < length_; ++i) {  // mode i + 1
+        const LineTransform& half = i % 2 == 0 ? *odd_modes_ : *even_modes_;
+        output_[i] = half.output()[i / 2];
+        if (i % 2 == 0) output_[i].offset += static_cast<std::ptrdiff_t>(even_modes_->block_size());
+      }
   }
 }
 
-std::size_t LineTransform::block_size() const {
-  return static_cast<std::size_t>(lanes) * rows_;
+std::size_t LineTransform::block_size(Basis basis, int length) {
+  std::size_t rows = length;
+  if (basis == Basis::sine_points) {
+    rows = 0;
+    int n = length + 1;
+    for (; points_method(n) == PointsMethod::halve; n /= 2) rows += n / 2;
+    rows += points_method(n) == PointsMethod::extend ? 2 * n : n;
+  }
+  return lanes * rows;
 }
 
 double LineTransform::pair_factor(Basis basis, int length) {
-  return basis == Basis::sine_points ? 2.0 * (length + 1) : 2.0 * length;
+  return basis == Basis::fourier ? length : 2.0 * (basis == Basis::sine_points ? length + 1 : length);
 }
 
 void LineTransform::execute(double* block, double* result) const {
-  if (basis_ == Basis::sine_points) {
-    fold_points(block);
-    if (odd_modes_) {
-      const std::ptrdiff_t half = rows_ / 2 * lanes;
-      odd_modes_->execute(block + half, result + half);
-      even_modes_->execute(block, result);
-    } else {
-      sum_points(block, result);
-    }
+  const bool forward = direction_ == Direction::forward;
+  switch (basis_) {
+    case Basis::sine_points:
+      transform_points(block, result);
+      break;
+    case Basis::fourier:
+      if (!forward) prepare_waves(block);
+      transform(block, result);
+      if (forward) finish_waves(result);
+      break;
+    default:
+      if (!forward) prepare_cells(block);
+      transform(block, result);
+      if (forward) finish_cells(result);
+  }
+}
+
+void LineTransform::transform(double* block, double* result) const {
+  fftw_execute_dft(plan_->many.get(), as_complex(block), as_complex(result));
+}
+
+void LineTransform::transform_points(double* block, double* result) const {
+  if (plan_) {
+    extend_points(block);
+    transform(block, result);
+    return;
+  }
+  fold_points(block);
+  if (odd_modes_) {
+    odd_modes_->execute(block + lanes * (intervals_ / 2), result + even_modes_->block_size());
+    even_modes_->execute(block, result);
   } else {
-    if (direction_ == Direction::backward) prepare_cells(block);
-    fftw_execute_dft(plan_->plan, as_complex(block), as_complex(result));
-    if (direction_ == Direction::forward) finish_cells(result);
+    sum_points(block, result);
+  }
+}
+
+// The transform of an odd real line is -i times what is wanted: so the extension is made of i times the lines.
+void LineTransform::extend_points(double* block) const {
+  const int n = intervals_;
+  for (int l = 0; l < lanes; l += 4) {
+    store4(block + l, Vector4{});
+    store4(block + lanes * n + l, Vector4{});
+  }
+  for (int j = 1; j < n; ++j) {
+    for (int l = 0; l < lanes; l += 4) {
+      const Vector4 x = times_i(load4(block + lanes * j + l));
+      store4(block + lanes * j + l, x);
+      store4(block + lanes * (2 * n - j) + l, -x);
+    }
   }
 }
 
 // u_j into row j and w_j into row n - j, which is where the transform of n/2 cells wants it.
 void LineTransform::fold_points(double* block) const {
-  for (int j = 1; j <= rows_ - j; ++j) {
+  for (int j = 1; j <= intervals_ - j; ++j) {
     double* low = block + lanes * j;
-    double* high = block + lanes * (rows_ - j);
+    double* high = block + lanes * (intervals_ - j);
     for (int l = 0; l < lanes; l += 4) {
       const Vector4 sum = load4(low + l) + load4(high + l);
       store4(low + l, load4(low + l) - load4(high + l));
@@ -152,7 +205,7 @@ void LineTransform::fold_points(double* block) const {
 // The sums for four modes at a time, to have enough that are independent: those of one parity from
 // first = 1, 2, 9, 10, 17, ...
 void LineTransform::sum_points(const double* block, double* result) const {
-  const int n = rows_;
+  const int n = intervals_;
   for (int first = 1; first < n; first += first % 2 == 1 ? 1 : 7) {
     const bool odd = first % 2 == 1;
     std::array<std::array<Vector4, lanes / 4>, 4> sum{};
@@ -174,9 +227,9 @@ void LineTransform::sum_points(const double* block, double* result) const {
 }
 
 void LineTransform::prepare_cells(double* block) const {
-  for (int k = 1; k <= rows_ - k; ++k) {
+  for (int k = 1; k <= intervals_ - k; ++k) {
     double* low = block + lanes * k;
-    double* high = block + lanes * (rows_ - k);
+    double* high = block + lanes * (intervals_ - k);
     const double c = cosine_[k];
     const double s = sine_[k];
     for (int l = 0; l < lanes; l += 4) {
@@ -192,9 +245,9 @@ void LineTransform::prepare_cells(double* block) const {
 
 void LineTransform::finish_cells(double* block) const {
   for (int l = 0; l < lanes; l += 4) store4(block + l, 2.0 * load4(block + l));
-  for (int k = 1; k <= rows_ - k; ++k) {
+  for (int k = 1; k <= intervals_ - k; ++k) {
     double* low = block + lanes * k;
-    double* high = block + lanes * (rows_ - k);
+    double* high = block + lanes * (intervals_ - k);
     const double c = cosine_[k];
     const double s = sine_[k];
     for (int l = 0; l < lanes; l += 4) {
@@ -202,6 +255,32 @@ void LineTransform::finish_cells(double* block) const {
       const Vector4 difference = times_i(load4(low + l) - load4(high + l));
       store4(low + l, c * sum - s * difference);
       store4(high + l, s * sum + c * difference);
+    }
+  }
+}
+
+void LineTransform::prepare_waves(double* block) const {
+  for (int k = 1; k < intervals_ - k; ++k) {
+    double* low = block + lanes * k;
+    double* high = block + lanes * (intervals_ - k);
+    for (int l = 0; l < lanes; l += 4) {
+      const Vector4 real = load4(low + l);
+      const Vector4 imaginary = times_i(load4(high + l));
+      store4(low + l, real + imaginary);
+      store4(high + l, real - imaginary);
+    }
+  }
+}
+
+void LineTransform::finish_waves(double* block) const {
+  for (int k = 1; k < intervals_ - k; ++k) {
+    double* low = block + lanes * k;
+    double* high = block + lanes * (intervals_ - k);
+    for (int l = 0; l < lanes; l += 4) {
+      const Vector4 z_low = 0.5 * load4(low + l);
+      const Vector4 z_high = 0.5 * load4(high + l);
+      store4(low + l, z_low + z_high);
+      store4(high + l, times_i(z_high - z_low));
     }
   }
 }

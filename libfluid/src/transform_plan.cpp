@@ -15,9 +15,9 @@ std::size_t plane_size(std::array<int, 2> extent) {
   return static_cast<std::size_t>(padded(extent[0]) * padded(extent[1]));
 }
 
-// Room for the lines of both axes, one more row for sine_points included.
-std::size_t block_size(std::array<int, 2> extent) {
-  return static_cast<std::size_t>(lanes) * (std::max(extent[0], extent[1]) + 1);
+// Room for the lines of both axes.
+std::size_t block_size(std::array<int, 2> extent, std::array<Basis, 2> basis) {
+  return std::max(LineTransform::block_size(basis[0], extent[0]), LineTransform::block_size(basis[1], extent[1]));
 }
 
 // Numbers i .. i + 3 of four rows, transposed, into the block.
@@ -81,11 +81,12 @@ void store_columns(const double* result, int columns, int n, const Place* place,
 TransformPlan::TransformPlan(std::array<int, 2> extent, std::array<Basis, 2> basis, Direction direction)
     : extent_(extent),
       row_stride_(padded(extent[0])),
+      block_size_(block_size(extent, basis)),
       along_x_(extent[0], basis[0], direction),
       along_y_(extent[1], basis[1], direction) {}
 
-std::size_t TransformPlan::scratch_size(std::array<int, 2> extent) {
-  return plane_size(extent) + 2 * block_size(extent);
+std::size_t TransformPlan::scratch_size(std::array<int, 2> extent, std::array<Basis, 2> basis) {
+  return plane_size(extent) + 2 * block_size(extent, basis);
 }
 
 void TransformPlan::execute(const double* in, std::ptrdiff_t in_stride, double* out, std::ptrdiff_t out_stride,
@@ -93,7 +94,7 @@ void TransformPlan::execute(const double* in, std::ptrdiff_t in_stride, double* 
   const auto [nx, ny] = extent_;
   double* plane = scratch;
   double* block = plane + plane_size(extent_);
-  double* result = block + block_size(extent_);
+  double* result = block + block_size_;
   for (int j = 0; j < ny; j += lanes) {
     load_rows(in, in_stride, j, ny, nx, along_x_.input(), block);
     along_x_.execute(block, result);

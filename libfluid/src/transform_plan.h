@@ -1,4 +1,4 @@
-// Planned sine and cosine transforms of a plane.
+// Planned sine, cosine and Fourier transforms of a plane.
 #pragma once
 
 #include <array>
@@ -20,11 +20,12 @@ class TransformPlan {
   void execute(const double* in, std::ptrdiff_t in_stride, double* out, std::ptrdiff_t out_stride,
                double* scratch) const;
 
-  static std::size_t scratch_size(std::array<int, 2> extent);
+  static std::size_t scratch_size(std::array<int, 2> extent, std::array<Basis, 2> basis);
 
  private:
   std::array<int, 2> extent_;
   std::ptrdiff_t row_stride_;  // of the plane in scratch
+  std::size_t block_size_;
   LineTransform along_x_, along_y_;
 };
 

@@ -20,12 +20,18 @@ namespace {
 using Real = long double;
 using Case = std::tuple<Basis, Direction>;
 
-constexpr Basis bases[] = {Basis::sine_points, Basis::sine_cells, Basis::cosine_cells};
+constexpr Basis bases[] = {Basis::sine_points, Basis::sine_cells, Basis::cosine_cells, Basis::fourier};
 
 // Row k, column j of the transform's matrix (line_transform.h).
 Real matrix(Basis basis, Direction direction, int n, int k, int j) {
   const Real pi = std::numbers::pi_v<Real>;
   if (basis == Basis::sine_points) return 2 * std::sin(pi * ((j + 1) * (k + 1) % (2 * (n + 1))) / (n + 1));
+  if (basis == Basis::fourier) {
+    const int wave = direction == Direction::forward ? k : j;
+    const Real angle = 2 * pi * (static_cast<long>(j) * k % n) / n;
+    const Real value = 2 * wave <= n ? std::cos(angle) : std::sin(angle);
+    return direction == Direction::backward && 2 * wave % n != 0 ? 2 * value : value;
+  }
   const int space = direction == Direction::forward ? j : k;
   const int mode = (direction == Direction::forward ? k : j) + (basis == Basis::sine_cells ? 1 : 0);
   const Real angle = pi * ((2 * space + 1) * mode % (4 * n)) / (2 * n);
@@ -93,7 +99,7 @@ TEST_P(Transform, OfPlanesTransformsBothAxesAndNothingElse) {
       const auto x = random_numbers(static_cast<std::size_t>(stride) * ny);
       std::vector<double> y = x;
       const TransformPlan plan({nx, ny}, {basis, other}, direction);
-      const AlignedArray scratch = allocate_aligned(TransformPlan::scratch_size({nx, ny}));
+      const AlignedArray scratch = allocate_aligned(TransformPlan::scratch_size({nx, ny}, {basis, other}));
       plan.execute(y.data(), stride, y.data(), stride, scratch.get());
       for (int ky = 0; ky < ny; ++ky) {
         for (int kx = 0; kx < stride; ++kx) {
@@ -118,8 +124,8 @@ TEST_P(Transform, OfPlanesTransformsBothAxesAndNothingElse) {
 TEST(TransformPlan, ForwardThenBackwardMultipliesByThePairFactor) {
   const std::array extent{37, 96};
   const auto x = random_numbers(static_cast<std::size_t>(extent[0]) * extent[1]);
-  const AlignedArray scratch = allocate_aligned(TransformPlan::scratch_size(extent));
   for (const Basis basis : bases) {
+    const AlignedArray scratch = allocate_aligned(TransformPlan::scratch_size(extent, {basis, basis}));
     const TransformPlan forward(extent, {basis, basis}, Direction::forward);
     const TransformPlan backward(extent, {basis, basis}, Direction::backward);
     std::vector<double> y(x.size());
@@ -131,7 +137,7 @@ TEST(TransformPlan, ForwardThenBackwardMultipliesByThePairFactor) {
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-  const char* names[] = {"sine_points", "sine_cells", "cosine_cells"};
+  const char* names[] = {"sine_points", "sine_cells", "cosine_cells", "fourier"};
   return std::string(names[static_cast<int>(std::get<0>(info.param))]) +
          (std::get<1>(info.param) == Direction::forward ? "_forward" : "_backward");
 }

@@ -1,0 +1,90 @@
+// x and y are diagonalised by fast transforms, plane by plane; what remains are difference equations in z for
+// every pair of modes. Eigenvalues are those of the difference operator, so that the solution is exact to
+// round-off.
+//
+// A solve passes three times over the data (planes forward, slabs, planes backward), each time through a
+// scratch array that fits a core's second-level cache. Every plane and slab is done by one thread in one way,
+// so the bits do not depend on the number of threads.
+#include "plane_solver.h"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "eigenbasis.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+std::array<int, 2> plane(const std::array<int, 3>& extent) {
+  return {extent[0], extent[1]};
+}
+
+std::array<Basis, 2> plane_basis(const EllipticProblem& problem) {
+  return {eigenbasis(problem, 0), eigenbasis(problem, 1)};
+}
+
+}  // namespace
+
+PlaneSolver::Scratch::Scratch(const PlaneSolver& solver)
+    : transform(allocate_aligned(TransformPlan::scratch_size(plane(solver.extent_), solver.basis_))),
+      columns(solver.columns_),
+      shift(solver.extent_[0]) {}
+
+PlaneSolver::PlaneSolver(const EllipticProblem& problem)
+    : extent_(problem.extent()),
+      basis_(plane_basis(problem)),
+      forward_(plane(extent_), basis_, Direction::forward),
+      backward_(plane(extent_), basis_, Direction::backward),
+      columns_(extent_[2], eigenbasis(problem, 2), extent_[0]),
+      eigenvalues_{eigenvalues(problem, 0), eigenvalues(problem, 1)},
+      z_coupling_(1.0 / (problem.grid.spacing(2) * problem.grid.spacing(2))),
+      normalisation_(1.0 / (LineTransform::pair_factor(basis_[0], extent_[0]) *
+                            LineTransform::pair_factor(basis_[1], extent_[1]))) {
+  PlaneSolver::update(problem);
+}
+
+std::size_t PlaneSolver::estimate_memory(const EllipticProblem& problem, int threads) {
+  const auto n = problem.extent();
+  const std::size_t numbers =
+      TransformPlan::scratch_size(plane(n), plane_basis(problem)) + ColumnSolver::scratch_size(n[2], n[0]) + n[0];
+  return sizeof(double) * (threads * numbers + n[0] + n[1]);
+}
+
+void PlaneSolver::update(const EllipticProblem& problem) {
+  alpha_ = problem.alpha;
+  mu_ = problem.mu.value();
+  while (static_cast<int>(scratch_.size()) < omp_get_max_threads()) scratch_.emplace_back(*this);
+}
+
+double PlaneSolver::solve(ConstView rhs, View x) {
+  double removed_mean = 0.0;
+  const int threads = std::min(static_cast<int>(scratch_.size()), omp_get_max_threads());
+#pragma omp parallel num_threads(threads)
+  {
+    Scratch& scratch = scratch_[omp_get_thread_num()];
+#pragma omp for schedule(static)
+    for (int k = 0; k < extent_[2]; ++k) {
+      forward_.execute(rhs.row(0, k), rhs.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+    }
+#pragma omp for schedule(static)
+    for (int j = 0; j < extent_[1]; ++j) {
+      const double mean = solve_slab(x, j, scratch);
+      if (j == 0) removed_mean = mean;
+    }
+#pragma omp for schedule(static)
+    for (int k = 0; k < extent_[2]; ++k) {
+      backward_.execute(x.row(0, k), x.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+    }
+  }
+  return removed_mean;
+}
+
+// All modes of x at one mode j of y.
+double PlaneSolver::solve_slab(View x, int j, Scratch& scratch) const {
+  for (int i = 0; i < extent_[0]; ++i) scratch.shift[i] = alpha_ + mu_ * (eigenvalues_[0][i] + eigenvalues_[1][j]);
+  return columns_.solve(x.row(j, 0), x.plane_stride, extent_[0], scratch.shift.data(), mu_ * z_coupling_,
+                        normalisation_, scratch.columns);
+}
+
+}  // namespace vesiflow::fluid
