@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "message.h"
 #include "saddle_vector.h"
 #include "schur_complement_solver.h"
+#include "step_passes.h"
 #include "stokes_operator.h"
 
 namespace vesiflow::fluid {
@@ -28,6 +30,10 @@ const StokesOptions& checked(const StokesOptions& options) {
   return options;
 }
 
+EllipticProblem pressure_problem(const Grid& grid) {
+  return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
+}
+
 }  // namespace
 
 class StokesSolver::System {
@@ -40,11 +46,16 @@ class StokesSolver::System {
   StokesOptions options;
 
  private:
-  void set_residual(const FaceVector& force, const FaceVector& u, GhostedBlocks& p);
+  std::array<double, 3> set_residual(const FaceVector& force, const FaceVector& u, ConstView p);
+  double velocity_residual_norm() { return std::sqrt(sums_.dot(residual_.u(), residual_.u())); }
+  void remove_divergence(const WallVelocity& walls, FaceVector& u, Field<Cell>& p);
 
   SaddleVector residual_, correction_;
   FaceVector lift_;  // zero but on walls and their ghosts
+  Field<Cell> chi_;
   PlaneSums sums_;
+  std::unique_ptr<EllipticSolver> pressure_solver_;
+  std::optional<CoefficientView> mu_;
   // The one that suits the viscosity; the other is released.
   std::unique_ptr<SchurComplementSolver> constant_;
   std::unique_ptr<BramblePasciakSolver> variable_;
@@ -57,7 +68,9 @@ StokesSolver::System::System(const Grid& grid_, const StokesOptions& options_)
       residual_(grid_),
       correction_(grid_),
       lift_(grid_),
-      sums_(grid_.cells[2] + 1) {
+      chi_(grid_),
+      sums_(grid_.cells[2] + 1),
+      pressure_solver_(make_elliptic_solver(pressure_problem(grid_), FftOptions{})) {
   update(1.0);
 }
 
@@ -77,15 +90,31 @@ void StokesSolver::System::update(const Viscosity& mu) {
     variable_->update(mu);
     solver_ = variable_.get();
   }
+  pressure_solver_->update(pressure_problem(grid));
+  mu_.emplace(grid, mu);
 }
 
-// r_u = f - A u - grad p and r_p = div u, of a velocity with its walls and ghosts set.
-void StokesSolver::System::set_residual(const FaceVector& force, const FaceVector& u, GhostedBlocks& p) {
+// r_u = f - A u - grad p and r_p = div u, of a velocity with its walls and ghosts set. Returns the means that f loses.
+std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force, const FaceVector& u, ConstView p) {
+  copy(p, correction_.p());
   solver_->viscous_operator().apply_to_points(u.points(), residual_.u());
-  add_gradient(grid, p, residual_.u());
+  add_gradient(grid, correction_.pressure, residual_.u());
   scale_and_add(-1.0, force.unknowns(), residual_.u());
   negative_divergence(grid, u.points(), residual_.p());
   scale(-1.0, residual_.p());
+  return grid.has_walls() ? std::array<double, 3>{} : sums_.remove_means(residual_.u());
+}
+
+// u -= grad phi with Lap phi = div u. Where mu is constant A grad phi = -grad(2 mu div u), half of it for the laplacian
+// form: taken from the pressure, that keeps the velocity equation as it was, but for walls and changes of mu.
+void StokesSolver::System::remove_divergence(const WallVelocity& walls, FaceVector& u, Field<Cell>& p) {
+  walls.set_normal_faces(u);
+  divergence(u, chi_);
+  pressure_solver_->solve(chi_.unknowns(), chi_.unknowns());
+  correct_velocity_and_pressure(chi_, 0.0, *mu_, constant_ ? 1.0 : 2.0, u, p);
+  walls.set_normal_faces(u);
+  walls.fill_ghosts(u);
+  sums_.remove_means(p.unknowns());
 }
 
 StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u,
@@ -97,36 +126,30 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   StokesReport report;
   walls.set_normal_faces(lift_);
   walls.fill_ghosts(lift_);
-  set_zero(correction_.p());
-  set_residual(force, lift_, correction_.pressure);
-  if (!grid.has_walls()) report.removed_mean_force = sums_.remove_means(residual_.u());
+  set_zero(chi_.unknowns());
+  report.removed_mean_force = set_residual(force, lift_, std::as_const(chi_).unknowns());
+  const double force_norm = velocity_residual_norm();
+  if (!std::isfinite(force_norm)) throw std::runtime_error("stokes: the force is not finite");
   const double size = solver_->norm(residual_);
-  const double force_norm = std::sqrt(sums_.dot(residual_.u(), residual_.u()));
-  if (!std::isfinite(size)) throw std::runtime_error("stokes: the force is not finite");
+  const auto relative_to = [](double whole, double part) { return whole > 0.0 ? part / whole : part; };
 
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
   walls.set_normal_faces(u);
   walls.fill_ghosts(u);
-  copy(p.unknowns(), correction_.p());
-  set_residual(force, u, correction_.pressure);
-  if (!grid.has_walls()) sums_.remove_means(residual_.u());
-  const SaddleProgress progress =
-      solver_->solve(residual_, options.tolerance * size, options.max_iterations, correction_);
-  if (!std::isfinite(progress.norm)) throw std::runtime_error("stokes: the initial guess is not finite");
+  set_residual(force, u, p.unknowns());
+  if (!std::isfinite(velocity_residual_norm())) throw std::runtime_error("stokes: the initial guess is not finite");
+  const double target = options.tolerance * size;
+  const SaddleProgress progress = solver_->solve(residual_, target, options.max_iterations, correction_);
+  report.iterations = progress.iterations;
+  report.converged = progress.norm <= target;
   add(1.0, correction_.u(), u.unknowns());
   add(1.0, correction_.p(), p.unknowns());
-  sums_.remove_means(p.unknowns());
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
-  walls.fill_ghosts(u);
+  remove_divergence(walls, u, p);
 
-  copy(p.unknowns(), correction_.p());
-  set_residual(force, u, correction_.pressure);
-  if (!grid.has_walls()) sums_.remove_means(residual_.u());
-  report.iterations = progress.iterations;
-  report.converged = progress.norm <= options.tolerance * size;
-  report.residual = size > 0.0 ? progress.norm / size : progress.norm;
-  report.momentum_residual = std::sqrt(sums_.dot(residual_.u(), residual_.u()));
-  if (force_norm > 0.0) report.momentum_residual /= force_norm;
+  set_residual(force, u, p.unknowns());
+  report.momentum_residual = relative_to(force_norm, velocity_residual_norm());
+  report.residual = relative_to(size, solver_->norm(residual_));
   report.divergence = max_divergence(u);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -19,9 +19,9 @@ struct StokesOptions {
 struct StokesReport {
   int iterations = 0;
   bool converged = true;
-  double residual = 0.0;                       // of both equations as in the stopping criterion
-  double momentum_residual = 0.0;              // |f + div(mu (grad u + grad u^T)) - grad p| / |b| (2-norms), b as below
-  double divergence = 0.0;                     // max |div u|
+  double residual = 0.0;           // |r| / |b| of StokesSolver, of the result
+  double momentum_residual = 0.0;  // the same of the first equation alone, in 2-norms
+  double divergence = 0.0;         // max |div u|: round-off
   std::array<double, 3> removed_mean_force{};  // without walls: subtracted from f, else zero
   double seconds = 0.0;                        // wall time of this solve
 };
@@ -32,11 +32,17 @@ struct StokesReport {
 // Without walls f loses its mean (reported), as nothing could balance it, and the mean velocity is zero. The mean of the
 // pressure is zero always.
 //
-// The residual (r_u, r_p) of the two equations is measured in the norm that bounds the error of the velocity in
-// dissipation, and that of the pressure in the 2-norm weighted with 1 / mu, independently of the grid:
-//   |r|^2 = <r_u, P^-1 r_u> + <r_p, mu r_p>,   P ~ the viscous operator.
-// The solve stops when |r| <= tolerance |b|, where b is the residual of p = 0 and a velocity that is zero but on the
-// walls: so the result has the same accuracy whatever the initial guess, and a good guess saves iterations.
+// The residuals r_u and r_p of the two equations are measured together,
+//   |r|^2 = <r_u, P^-1 r_u> + <r_p, mu r_p>,   P ~ -div(mu (grad + grad^T)) (spectrally equivalent on all grids),
+// which bounds the error of u in dissipation and that of p in the 2-norm weighted with 1 / mu. The iteration stops when
+// |r| <= tolerance |b|, where b is the residual of p = 0 and a velocity that is zero but on the walls: so the accuracy
+// does not depend on the initial guess, but a good guess saves iterations. (If walls drive the flow, |b| grows with the
+// inverse square root of the mesh width.) At last a projection makes div u round-off; measured, this raises |r| no more
+// than fourfold on grids up to 96^3.
+//
+// A constant mu takes conjugate gradients for the pressure with a fast solve of the velocity in each iteration (16 at the
+// default tolerance in a cube with walls, 1 without walls), a field takes Bramble-Pasciak conjugate gradients with a
+// multigrid cycle (40 to 70 for ratios of viscosities from 5 to 100). Neither number grows with the grid.
 class StokesSolver {
  public:
   // For viscosity 1. Throws std::invalid_argument, naming the value, unless 0 < tolerance < 1 and max_iterations >= 1.
