@@ -12,8 +12,10 @@ namespace vesiflow::fluid {
 // preconditioner
 //   M = (A0   0 )     A0 = s P,  P^-1 a multigrid cycle for A,
 //       (B   -S0)     S0^-1 = 2 mu, as S = B A^-1 B^T is 1 / (2 mu) away from walls for constant mu,
-// makes M^-1 K symmetric and positive in the inner product H = diag(A - A0, S0), if s is so small that A - A0 is
-// positive. s is lowered, and the iteration starts again from the x it has, when that turns out not to be so.
+// makes M^-1 K symmetric and positive in the inner product H = diag(A - A0, S0), if s is below all eigenvalues of P^-1 A.
+// A larger s converges faster although a few directions are then negative in H, but without a guarantee. So s begins
+// there, and when the residual has not reached a new minimum for many iterations it is lowered, and the iteration starts
+// again from the x it has.
 class BramblePasciakSolver final : public SaddleSolver {
  public:
   explicit BramblePasciakSolver(const Grid& grid);
@@ -23,8 +25,9 @@ class BramblePasciakSolver final : public SaddleSolver {
   SaddleProgress solve(SaddleVector& r, double target, int max_iterations, SaddleVector& x) override;
 
  private:
-  enum class Outcome { finished, not_positive };
-  Outcome iterate(SaddleVector& r, double target, int max_iterations, SaddleVector& x, SaddleProgress& progress);
+  enum class Outcome { finished, stagnated };
+  Outcome iterate(double s, SaddleVector& r, double target, int max_iterations, SaddleVector& x,
+                  SaddleProgress& progress);
   double divergence_norm2(const SaddleVector& r);
   void multiply_by_viscosity(double factor, ConstView p, View product) const;
 

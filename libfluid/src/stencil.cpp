@@ -196,7 +196,7 @@ void add_variable_laplacian_row(const Grid& grid, Centring centring, ConstView x
 #pragma omp simd
   for (int i = begin; i < end; ++i) {
     out[i] += scale[0] * flux_difference(m[0], 1, i) + scale[1] * flux_difference(m[1], sy, i) +
-             scale[2] * flux_difference(m[2], sz, i);
+              scale[2] * flux_difference(m[2], sz, i);
   }
 }
 

@@ -10,13 +10,12 @@
 namespace vesiflow::fluid {
 namespace {
 
-// Steps of smoothing before and after the correction from the coarser grid.
-constexpr int smoothing_steps = 2;
-// The diagonally scaled operator has no eigenvalue above 4: an edge adds mu (a + b)^2 <= 2 mu (a^2 + b^2) to the
-// dissipation, and each difference a^2 <= 2 (u_1^2 + u_2^2) / h^2 of neighbours, mu u^2 / h^2 of which is the diagonal's.
-constexpr double largest_eigenvalue = 4.0;
-// What a coarser grid cannot represent is smoothed.
-constexpr double smoothed_fraction = 0.05;
+// Damping of the Jacobi smoothing, one step before and one after the correction from the coarser grid. The diagonally
+// scaled operator has no eigenvalue above 4: an edge adds mu (a + b)^2 <= 2 mu (a^2 + b^2) to the dissipation, and each
+// difference a^2 <= 2 (u_1^2 + u_2^2) / h^2 of neighbours, mu u^2 / h^2 of which is the diagonal's. As 4 damping
+// is below 2, errors never grow, and those that a coarser grid cannot represent shrink evenly.
+constexpr double damping = 1.0 / 2.2;
+// Of the error on the coarsest grid.
 constexpr double coarsest_reduction = 0.1;
 
 EllipticProblem viscous_problem(const Grid& grid, const Viscosity& mu) {
@@ -76,7 +75,6 @@ class VelocityMultigrid::Level {
         x(viscous_problem(grid_, 1.0)),
         rhs(viscous_problem(grid_, 1.0)),
         residual(viscous_problem(grid_, 1.0)),
-        direction_(viscous_problem(grid_, 1.0)),
         inverse_diagonal_(viscous_problem(grid_, 1.0)) {}
 
   void connect(const Grid& coarse) {
@@ -101,21 +99,13 @@ class VelocityMultigrid::Level {
     return Viscosity(coarse_viscosity_);
   }
 
-  // Improves x, or sets it if it is said to be zero.
-  void smooth(ConstBlocks b, bool x_is_zero) {
-    ChebyshevSteps chebyshev(smoothed_fraction * largest_eigenvalue, largest_eigenvalue);
-    const Blocks d = direction_.unknowns();
-    if (x_is_zero) set_zero(x.unknowns());
-    for (int step = 0; step < smoothing_steps; ++step) {
-      const auto [from_d, from_r] = chebyshev.next();
-      if (x_is_zero && step == 0) {
-        copy(b, residual.unknowns());
-      } else {
-        set_residual(b);
-      }
-      precondition_and_add(from_d, from_r, d);
-      add(1.0, d, x.unknowns());
-    }
+  void smooth_from_zero(ConstBlocks b) {
+    set_zero(x.unknowns());
+    add_scaled(b);
+  }
+  void smooth(ConstBlocks b) {
+    set_residual(b);
+    add_scaled(std::as_const(residual).unknowns());
   }
 
   void set_residual(ConstBlocks b) {
@@ -127,8 +117,6 @@ class VelocityMultigrid::Level {
   std::unique_ptr<Stencil> stencil;
   GhostedBlocks x, rhs, residual;
   std::vector<TensorMap> to_coarse, from_coarse;  // of each component
-
-  Blocks direction() { return direction_.unknowns(); }
 
  private:
   void set_diagonal(ConstView mu) {
@@ -149,12 +137,11 @@ class VelocityMultigrid::Level {
     }
   }
 
-  // d = a d + b D^-1 r.
-  void precondition_and_add(double a, double b, Blocks d) {
-    const ConstBlocks r = std::as_const(residual).unknowns();
+  // x += damping D^-1 r.
+  void add_scaled(ConstBlocks r) {
     const ConstBlocks inverse = std::as_const(inverse_diagonal_).unknowns();
     for (int c = 0; c < 3; ++c) {
-      const View view = d[c];
+      const View view = x.unknowns()[c];
 #pragma omp parallel for schedule(static)
       for (int k = 0; k < view.extent[2]; ++k) {
         for (int j = 0; j < view.extent[1]; ++j) {
@@ -162,13 +149,13 @@ class VelocityMultigrid::Level {
           const double* from = r[c].row(j, k);
           const double* scale = inverse[c].row(j, k);
 #pragma omp simd
-          for (int i = 0; i < view.extent[0]; ++i) to[i] = a * to[i] + b * scale[i] * from[i];
+          for (int i = 0; i < view.extent[0]; ++i) to[i] += damping * scale[i] * from[i];
         }
       }
     }
   }
 
-  GhostedBlocks direction_, inverse_diagonal_;
+  GhostedBlocks inverse_diagonal_;
   std::optional<TensorMap> average_;
   std::shared_ptr<Field<Cell>> coarse_viscosity_;
 };
@@ -179,6 +166,7 @@ VelocityMultigrid::VelocityMultigrid(const Grid& grid) {
     levels_.back()->connect(coarse);
     levels_.push_back(std::make_unique<Level>(coarse));
   }
+  coarsest_direction_ = std::make_unique<GhostedBlocks>(viscous_problem(levels_.back()->grid, 1.0));
   coarsest_solver_ =
       make_elliptic_solver(viscous_problem(levels_.back()->grid, 1.0).with_constant_viscosity(1.0), FftOptions{});
   update(1.0);
@@ -211,12 +199,12 @@ void VelocityMultigrid::cycle(std::size_t l, ConstBlocks b) {
   }
   Level& level = *levels_[l];
   Level& coarse = *levels_[l + 1];
-  level.smooth(b, true);
+  level.smooth_from_zero(b);
   level.set_residual(b);
   for (int c = 0; c < 3; ++c) level.to_coarse[c].apply(level.residual.unknowns()[c], coarse.rhs.unknowns()[c]);
   cycle(l + 1, std::as_const(coarse.rhs).unknowns());
   for (int c = 0; c < 3; ++c) level.from_coarse[c].add(coarse.x.unknowns()[c], level.x.unknowns()[c]);
-  level.smooth(b, false);
+  level.smooth(b);
 }
 
 // -Lap has eigenvalues relative to the viscous operator between the smallest and twice the largest viscosity:
@@ -230,7 +218,7 @@ void VelocityMultigrid::solve_coarsest(ConstBlocks b) {
     const auto [from_d, from_r] = chebyshev.next();
     level.set_residual(b);
     coarsest_solver_->solve(level.residual.unknowns(), level.residual.unknowns());
-    const Blocks d = level.direction();
+    const Blocks d = coarsest_direction_->unknowns();
     const ConstBlocks z = std::as_const(level.residual).unknowns();
     for_each_row(z, d, [a = from_d, b_ = from_r](double* to, const double* from, int n) {
       for (int i = 0; i < n; ++i) to[i] = a * to[i] + b_ * from[i];

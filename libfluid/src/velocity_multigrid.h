@@ -14,9 +14,8 @@ namespace vesiflow::fluid {
 //
 // Each coarser grid has half the cells (rounded up) along the axes of the smallest spacings, any number being allowed, and
 // its own difference operator with the mean viscosity of its cells. Transfers are linear interpolation and its
-// transpose; smoothing is by Chebyshev polynomials of the diagonally scaled operator, and on the coarsest grid by one of
-// the operator preconditioned with fast solves of constant viscosity, of a degree that grows with the root of the ratio
-// of viscosities.
+// transpose; smoothing is by a damped Jacobi step before and after. On the coarsest grid a Chebyshev iteration with fast
+// solves of constant viscosity takes steps in proportion to the root of the ratio of viscosities.
 class VelocityMultigrid {
  public:
   explicit VelocityMultigrid(const Grid& grid);
@@ -33,6 +32,7 @@ class VelocityMultigrid {
 
   std::vector<std::unique_ptr<Level>> levels_;
   std::unique_ptr<EllipticSolver> coarsest_solver_;
+  std::unique_ptr<GhostedBlocks> coarsest_direction_;
   Viscosity::Range coarsest_range_{};
 };
 

@@ -19,9 +19,9 @@ struct StokesOptions {
 struct StokesReport {
   int iterations = 0;
   bool converged = true;
-  double residual = 0.0;           // |r| / |b| of StokesSolver, of the result
-  double momentum_residual = 0.0;  // the same of the first equation alone, in 2-norms
-  double divergence = 0.0;         // max |div u|: round-off
+  double residual = 0.0;                       // |r| / |b| of StokesSolver, of the result
+  double momentum_residual = 0.0;              // the same of the first equation alone, in 2-norms
+  double divergence = 0.0;                     // max |div u|: round-off
   std::array<double, 3> removed_mean_force{};  // without walls: subtracted from f, else zero
   double seconds = 0.0;                        // wall time of this solve
 };
@@ -40,9 +40,10 @@ struct StokesReport {
 // inverse square root of the mesh width.) At last a projection makes div u round-off; measured, this raises |r| no more
 // than fourfold on grids up to 96^3.
 //
-// A constant mu takes conjugate gradients for the pressure with a fast solve of the velocity in each iteration (16 at the
-// default tolerance in a cube with walls, 1 without walls), a field takes Bramble-Pasciak conjugate gradients with a
-// multigrid cycle (40 to 70 for ratios of viscosities from 5 to 100). Neither number grows with the grid.
+// A constant mu takes conjugate gradients for the pressure with a fast solve of the velocity in each iteration: about 15 at
+// the default tolerance in a cube with walls, 1 without walls. A field takes Bramble-Pasciak conjugate gradients with a
+// multigrid cycle: about 35 to 50 in a cube for ratios of viscosities from 5 to 100 over two cells. Neither number grows
+// with the grid.
 class StokesSolver {
  public:
   // For viscosity 1. Throws std::invalid_argument, naming the value, unless 0 < tolerance < 1 and max_iterations >= 1.
