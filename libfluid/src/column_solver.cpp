@@ -22,10 +22,15 @@ double decay_rate(double ratio) {
   return std::log1p(0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio));
 }
 
+void prefetch(const double* row, int columns) {
+  for (int i = 0; i < columns; i += 8) __builtin_prefetch(row + i, 1, 2);
+}
+
 // row[i] = b[i] + r[i] row[i] for the rows of b in the order they are given by first and step: the sum of r^m b, m
 // counted from the last.
 void accumulate(const double* b, std::ptrdiff_t step, int rows, int columns, const double* r, double* sum) {
   for (int m = 0; m < rows; ++m, b += step) {
+    if (m + 4 < rows) prefetch(b + 4 * step, columns);
     for (int i = 0; i < columns; ++i) sum[i] = b[i] + r[i] * sum[i];
   }
 }
@@ -73,6 +78,7 @@ double ColumnSolver::solve(double* x, std::ptrdiff_t stride, int columns, const 
   for (int k = 0; k < n_; ++k) {
     const double* b = x + k * stride;
     double* y = rows.slab + k * row_stride_;
+    if (k + 4 < n_) prefetch(b + 4 * stride, columns);
     for (int i = 0; i < columns; ++i) y[i] = c[i] * b[i] + r[i] * below[i];
     below = y;
   }
@@ -97,6 +103,7 @@ double ColumnSolver::solve(double* x, std::ptrdiff_t stride, int columns, const 
 // half period.
 int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows& rows) const {
   const double inverse = 1.0 / s;
+  const double slowest = decay_rate(*std::min_element(shift, shift + rows.columns) * inverse);
   for (int i = 0; i < rows.columns; ++i) {
     const double ratio = shift[i] * inverse;
     const double r = 1.0 / (1.0 + 0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio));
@@ -104,7 +111,7 @@ int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows
     rows.factor[i] = scale * inverse * r;
   }
   constexpr double negligible = 42.0;  // exp(-42) = 6e-19
-  if (half_period_ * decay_rate(shift[0] * inverse) < negligible) {
+  if (half_period_ * slowest < negligible) {
     for (int i = 0; i < rows.columns; ++i) {
       if (is_direct(shift[i], s)) {
         rows.decay[i] = 0.0;
@@ -113,7 +120,7 @@ int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows
     }
     return half_period_ + 1;
   }
-  return static_cast<int>(std::ceil(negligible / decay_rate(shift[0] * inverse)));
+  return static_cast<int>(std::ceil(negligible / slowest));
 }
 
 // y_{-1} into the row of neighbours.

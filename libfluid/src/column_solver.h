@@ -25,9 +25,9 @@ class ColumnSolver {
   };
   static std::size_t scratch_size(int n, int columns);
 
-  // Number k of column i is at x[i + k * stride]: b, and then the solution. The shifts must not be smaller than the
-  // first. If that is zero and there are no zeros at the ends, the mean of the first column is removed from b and from
-  // x, and that of scale b is returned (else zero).
+  // Number k of column i is at x[i + k * stride]: b, and then the solution. If the shift of a column (there must
+  // be no more than one) is zero and there are no zeros at the ends, its mean is removed from b and from x, and that of
+  // scale b is returned (else zero).
   double solve(double* x, std::ptrdiff_t stride, int columns, const double* shift, double s, double scale,
                Scratch& scratch) const;
 

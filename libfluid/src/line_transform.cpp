@@ -12,8 +12,8 @@
 // Points j = 1 .. n-1, between walls 0 and n. With u_j = x_j - x_{n-j} and w_j = x_j + x_{n-j}, j = 1 .. n/2,
 //   y_{2k} = 2 sum_{j<n/2} u_j sin(pi j 2k / n),   y_{2k+1} = 2 sum_{j<n/2} w_j sin(pi j (2k+1) / n) + (-1)^k w_{n/2}
 // (the last term if n is even: w counts x_{n/2} twice). If n is even the first is the transform of the points
-// between n/2 intervals, and the second the backward one of n/2 cells. That is repeated until n is small, where the
-// sums are done as they stand with n^2 / 2 multiplications, or odd: then the odd extension to a period of 2n points is
+// between n/2 intervals, and the second the backward one of n/2 cells. That is repeated until n is odd or small.
+// Then either the sums are done as they stand, with n^2 / 2 multiplications, or the odd extension to a period of 2n points is
 // transformed, twice the work of the even case. All factors are at most 2; the well-known
 // transform by one FFT of period n and a running sum (Numerical Recipes, section 12.4) amplifies round-off near the
 // walls, as n / j.
@@ -23,36 +23,28 @@
 #include <cmath>
 #include <numbers>
 
-#include "aligned_array.h"
-#include "fftw_plan.h"
 #include "lanes.h"
 
 namespace vesiflow::fluid {
 namespace {
 
-fftw_complex* as_complex(double* block) {
-  return reinterpret_cast<fftw_complex*>(block);
+int without_factors_up_to_13(int n) {
+  for (const int prime : {2, 3, 5, 7, 11, 13}) {
+    while (n % prime == 0) n /= prime;
+  }
+  return n;
 }
 
-// How the points between n intervals are transformed.
+// How the points between n intervals are transformed. Up to 128, sums are faster than FFTs with larger prime factors.
 enum class PointsMethod { sum, extend, halve };
 
 PointsMethod points_method(int n) {
-  if (n % 2 == 1) return n <= 64 ? PointsMethod::sum : PointsMethod::extend;
-  return n <= 16 ? PointsMethod::sum : PointsMethod::halve;
+  if (n <= 16) return PointsMethod::sum;
+  if (n % 2 == 0) return PointsMethod::halve;
+  return n <= 128 && without_factors_up_to_13(n) > 1 ? PointsMethod::sum : PointsMethod::extend;
 }
 
 }  // namespace
-
-struct LineTransform::Plan {
-  Plan(int n, int sign, double* in, double* out)
-      : many([&] {
-          return fftw_plan_many_dft(1, &n, lanes / 2, as_complex(in), nullptr, lanes / 2, 1, as_complex(out), nullptr,
-                                    lanes / 2, 1, sign, FFTW_ESTIMATE);
-        }) {}
-
-  FftwPlan many;
-};
 
 LineTransform::LineTransform(int length, Basis basis, Direction direction)
     : length_(length),
@@ -70,31 +62,27 @@ LineTransform::LineTransform(int length, Basis basis, Direction direction)
 
 LineTransform::~LineTransform() = default;
 
-void LineTransform::make_plan(int points, Direction direction) {
-  const AlignedArray in = allocate_aligned(block_size());
-  const AlignedArray out = allocate_aligned(block_size());
-  plan_ = std::make_unique<Plan>(points, direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD, in.get(),
-                                 out.get());
-}
-
 void LineTransform::plan_cells() {
   const int n = length_;
-  make_plan(n, direction_);
+  const bool forward = direction_ == Direction::forward;
+  fft_ = std::make_unique<BlockFft>(n, direction_);
   if (basis_ == Basis::fourier) {
-    for (int i = 0; i < n; ++i) input_[i].offset = lanes * i;
-    output_ = input_;
+    for (int i = 0; i < n; ++i) {
+      input_[i].offset = lanes * i;
+      output_[i].offset = fft_->row(i);
+    }
     return;
   }
   for (int k = 0; k <= n / 2; ++k) {
     cosine_.push_back(std::cos(0.5 * std::numbers::pi * k / n));
     sine_.push_back(std::sin(0.5 * std::numbers::pi * k / n));
   }
-  const bool forward = direction_ == Direction::forward;
   auto& space = forward ? input_ : output_;
   auto& modes = forward ? output_ : input_;
   for (int i = 0; i < n; ++i) {
     space[i].offset = lanes * (i % 2 == 0 ? i / 2 : n - 1 - i / 2);
     modes[i].offset = lanes * (basis_ == Basis::sine_cells ? n - 1 - i : i);
+    output_[i].offset = fft_->row(static_cast<int>(output_[i].offset / lanes));
     if (basis_ == Basis::sine_cells && i % 2 == 1) space[i].sign = -1.0;
   }
 }
@@ -108,7 +96,8 @@ void LineTransform::plan_points() {
       for (int m = 0; m < 2 * n; ++m) sine_.push_back(2.0 * std::sin(std::numbers::pi * m / n));
       break;
     case PointsMethod::extend:
-      make_plan(2 * n, Direction::forward);
+      fft_ = std::make_unique<BlockFft>(2 * n, Direction::forward);
+      for (int i = 0; i < length_; ++i) output_[i].offset = fft_->row(i + 1);
       break;
     case PointsMethod::halve:
       odd_modes_ = std::make_unique<LineTransform>(n / 2, Basis::sine_cells, Direction::backward);
@@ -144,24 +133,20 @@ void LineTransform::execute(double* block, double* result) const {
       break;
     case Basis::fourier:
       if (!forward) prepare_waves(block);
-      transform(block, result);
+      fft_->execute(block, result);
       if (forward) finish_waves(result);
       break;
     default:
       if (!forward) prepare_cells(block);
-      transform(block, result);
+      fft_->execute(block, result);
       if (forward) finish_cells(result);
   }
 }
 
-void LineTransform::transform(double* block, double* result) const {
-  fftw_execute_dft(plan_->many.get(), as_complex(block), as_complex(result));
-}
-
 void LineTransform::transform_points(double* block, double* result) const {
-  if (plan_) {
+  if (fft_) {
     extend_points(block);
-    transform(block, result);
+    fft_->execute(block, result);
     return;
   }
   fold_points(block);
@@ -246,8 +231,8 @@ void LineTransform::prepare_cells(double* block) const {
 void LineTransform::finish_cells(double* block) const {
   for (int l = 0; l < lanes; l += 4) store4(block + l, 2.0 * load4(block + l));
   for (int k = 1; k <= intervals_ - k; ++k) {
-    double* low = block + lanes * k;
-    double* high = block + lanes * (intervals_ - k);
+    double* low = block + fft_->row(k);
+    double* high = block + fft_->row(intervals_ - k);
     const double c = cosine_[k];
     const double s = sine_[k];
     for (int l = 0; l < lanes; l += 4) {
@@ -274,8 +259,8 @@ void LineTransform::prepare_waves(double* block) const {
 
 void LineTransform::finish_waves(double* block) const {
   for (int k = 1; k < intervals_ - k; ++k) {
-    double* low = block + lanes * k;
-    double* high = block + lanes * (intervals_ - k);
+    double* low = block + fft_->row(k);
+    double* high = block + fft_->row(intervals_ - k);
     for (int l = 0; l < lanes; l += 4) {
       const Vector4 z_low = 0.5 * load4(low + l);
       const Vector4 z_high = 0.5 * load4(high + l);

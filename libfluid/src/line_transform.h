@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "block_fft.h"
+
 namespace vesiflow::fluid {
 
 // The forward transform's basis along a line.
@@ -14,8 +16,6 @@ enum class Basis {
   cosine_cells,  // DCT-II: even about walls half a step outside
   fourier        // of period n, as real numbers
 };
-
-enum class Direction { forward, backward };
 
 // Where a number stands in a block: in the row that begins at offset, with a sign.
 struct Place {
@@ -62,8 +62,6 @@ class LineTransform {
  private:
   void plan_cells();
   void plan_points();
-  void make_plan(int points, Direction direction);
-  void transform(double* block, double* result) const;
   void transform_points(double* block, double* result) const;
   void prepare_cells(double* block) const;
   void finish_cells(double* block) const;
@@ -73,14 +71,13 @@ class LineTransform {
   void sum_points(const double* block, double* result) const;
   void extend_points(double* block) const;
 
-  struct Plan;
   int length_;
   int intervals_;  // length, or one more for sine_points
   Basis basis_;
   Direction direction_;
   std::vector<double> cosine_, sine_;
   std::vector<Place> input_, output_;
-  std::unique_ptr<Plan> plan_;                             // of cells, waves, or points extended to a period
+  std::unique_ptr<BlockFft> fft_;                          // of cells, waves, or points extended to a period
   std::unique_ptr<LineTransform> odd_modes_, even_modes_;  // of points, if their number of intervals is even
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "message.h"
+#include "solver_factory.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -26,8 +27,16 @@ const PcgOptions& checked(const PcgOptions& options) {
   return options;
 }
 
-SolverOptions solver_options(const PcgOptions& options) {
-  return std::visit([](const auto& preconditioner) { return SolverOptions(preconditioner); }, options.preconditioner);
+bool scaled(const EllipticProblem& problem, const PcgOptions& options) {
+  return std::holds_alternative<FftOptions>(options.preconditioner) && !problem.mu.is_constant();
+}
+
+// y *= x.
+void multiply(ConstBlocks x, Blocks y) {
+  for_each_row(x, y, [](double* to, const double* from, int n) {
+#pragma omp simd
+    for (int i = 0; i < n; ++i) to[i] *= from[i];
+  });
 }
 
 }  // namespace
@@ -41,10 +50,12 @@ std::size_t PcgSolver::estimate_memory(const EllipticProblem& problem, const Pcg
   std::size_t bytes = 0;
   for (int block = 0; block < problem.blocks(); ++block) {
     const auto n = point_extent(problem.grid, problem.centring(block));
-    bytes += 4 * sizeof(double) * static_cast<std::size_t>(n[0] + 2) * (n[1] + 2) * (n[2] + 2);
+    bytes += (scaled(problem, options) ? 5 : 4) * sizeof(double) * static_cast<std::size_t>(n[0] + 2) * (n[1] + 2) *
+             (n[2] + 2);
   }
   const bool fft = std::holds_alternative<FftOptions>(options.preconditioner);
-  return bytes + estimate_solver_memory(fft ? problem.with_constant_viscosity(1.0) : problem, solver_options(options));
+  return bytes +
+         estimate_preconditioner_memory(fft ? problem.with_constant_viscosity(1.0) : problem, options.preconditioner);
 }
 
 EllipticProblem PcgSolver::preconditioning_problem(const EllipticProblem& problem) const {
@@ -57,7 +68,7 @@ EllipticProblem PcgSolver::preconditioning_problem(const EllipticProblem& proble
 void PcgSolver::do_update(const EllipticProblem& problem) {
   const EllipticProblem reference = preconditioning_problem(problem);
   if (!preconditioner_ || !problem.same_structure(this->problem())) {
-    preconditioner_ = make_elliptic_solver(reference, solver_options(options_));
+    preconditioner_ = make_preconditioner(reference, options_.preconditioner);
     direction_ = std::make_unique<GhostedBlocks>(problem);
     product_ = std::make_unique<GhostedBlocks>(problem);
     residual_ = std::make_unique<GhostedBlocks>(problem);
@@ -69,6 +80,56 @@ void PcgSolver::do_update(const EllipticProblem& problem) {
     preconditioner_->update(reference);
   }
   stencil_ = std::make_unique<Stencil>(problem);
+  if (scaled(problem, options_)) {
+    set_scale(problem, reference.mu.value());
+  } else {
+    scale_.reset();
+  }
+}
+
+// "fft" knows nothing of where mu is large. With its problem C between two diagonal scalings, D C^-1 D with
+// D = (diagonal of C / diagonal of A)^(1/4), the condition number is about the square root of that of C^-1 A, and still
+// independent of the grid, however thin an interface (measured: with the power 1/2 instead, as exact for a mu that is
+// smooth on the grid's scale, iterations grow with the number of cells).
+void PcgSolver::set_scale(const EllipticProblem& problem, double reference) {
+  if (!scale_ || !problem.same_structure(this->problem())) scale_ = std::make_unique<GhostedBlocks>(problem);
+  double per_viscosity = 0.0;
+  for (int axis = 0; axis < 3; ++axis) per_viscosity += 2.0 / std::pow(problem.grid.spacing(axis), 2);
+  const ConstView mu = problem.mu.field().points();
+  const double numerator = problem.alpha + reference * per_viscosity;
+  for (int block = 0; block < problem.blocks(); ++block) {
+    const Centring centring = problem.centring(block);
+    const View scale = scale_->unknowns()[block];
+    const std::ptrdiff_t below = centring == Centring::face_x   ? 1
+                                 : centring == Centring::face_y ? mu.row_stride
+                                 : centring == Centring::face_z ? mu.plane_stride
+                                                                : 0;
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k < scale.extent[2]; ++k) {
+      for (int j = 0; j < scale.extent[1]; ++j) {
+        const double* above =
+            mu.row(j + first_unknown(problem.grid, centring, 1), k + first_unknown(problem.grid, centring, 2)) +
+            first_unknown(problem.grid, centring, 0);
+        double* row = scale.row(j, k);
+        for (int i = 0; i < scale.extent[0]; ++i) {
+          const double here = 0.5 * (above[i] + above[i - below]);
+          row[i] = std::sqrt(std::sqrt(numerator / (problem.alpha + here * per_viscosity)));
+        }
+      }
+    }
+  }
+}
+
+void PcgSolver::precondition(ConstBlocks r, Blocks z) {
+  if (!scale_) {
+    preconditioner_->solve(r, z);
+    return;
+  }
+  copy(r, z);
+  multiply(scale_->unknowns(), z);
+  preconditioner_->solve(z, z);
+  multiply(scale_->unknowns(), z);
+  if (problem().has_nullspace()) plane_sums_.remove_means(z);
 }
 
 // Conjugate gradients as in Saad, Iterative Methods for Sparse Linear Systems (2003), algorithm 9.1.
@@ -98,7 +159,7 @@ SolveReport PcgSolver::do_solve(ConstBlocks rhs, Blocks x) {
   const double target = options_.tolerance * scale;
   double rz = 0.0;
   while (norm > target && report.iterations < options_.max_iterations) {
-    preconditioner_->solve(r, z);
+    precondition(r, z);
     const double previous = std::exchange(rz, plane_sums_.dot(r, z));
     if (report.iterations == 0) {
       copy(z, p);

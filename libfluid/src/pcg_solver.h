@@ -23,11 +23,14 @@ class PcgSolver final : public EllipticSolver {
   void do_update(const EllipticProblem& problem) override;
   SolveReport do_solve(ConstBlocks rhs, Blocks x) override;
   EllipticProblem preconditioning_problem(const EllipticProblem& problem) const;
+  void set_scale(const EllipticProblem& problem, double reference);
+  void precondition(ConstBlocks r, Blocks z);
 
   PcgOptions options_;
   std::unique_ptr<EllipticSolver> preconditioner_;
   std::unique_ptr<Stencil> stencil_;
-  std::unique_ptr<GhostedBlocks> direction_;                            // p
+  std::unique_ptr<GhostedBlocks> scale_;      // of r before and z after "fft", if mu is a field; else null
+  std::unique_ptr<GhostedBlocks> direction_;  // p
   std::unique_ptr<GhostedBlocks> product_, residual_, preconditioned_;  // A p, r, M^-1 r
   PlaneSums plane_sums_;
 };

@@ -34,6 +34,7 @@ class PlaneSolver final : public FastSolver {
   std::array<int, 3> extent_;
   std::array<Basis, 2> basis_;  // along x and y
   TransformPlan forward_, backward_;
+  int width_;  // columns solved at a time
   ColumnSolver columns_;
   std::array<std::vector<double>, 2> eigenvalues_;  // of the one-dimensional -Laplacian along x and y
   double z_coupling_;                               // 1 / h_z^2

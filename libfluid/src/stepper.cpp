@@ -238,7 +238,7 @@ void Stepper::project(double a) {
   report.pressure = pressure_solver->solve(std::as_const(chi_).unknowns(), chi_.unknowns());
   check_converged("pressure", report.pressure);
   if (implicit_stress()) {
-    correct_velocity_and_pressure(chi_, a, viscosity_, 2.0, previous, pressure);
+    correct_velocity_and_pressure(chi_, a, viscosity_, 1.0, previous, pressure);
   } else {
     correct_velocity_and_pressure(chi_, a, unit_, reference_viscosity_, previous, pressure);
   }

@@ -24,8 +24,6 @@ class TransformPlan {
 
  private:
   std::array<int, 2> extent_;
-  std::ptrdiff_t row_stride_;  // of the plane in scratch
-  std::size_t block_size_;
   LineTransform along_x_, along_y_;
 };
 

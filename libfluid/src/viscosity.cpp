@@ -11,17 +11,20 @@
 namespace vesiflow::fluid {
 namespace {
 
+// Cells come before ghosts, which may be copies of them.
 [[noreturn]] void refuse(const Field<Cell>& mu) {
   const auto [nx, ny, nz] = mu.extent();
-  for (int k = -1; k <= nz; ++k) {
-    for (int j = -1; j <= ny; ++j) {
-      for (int i = -1; i <= nx; ++i) {
-        const double value = mu(i, j, k);
-        if (std::isfinite(value) && value > 0.0) continue;
-        const bool ghost = i < 0 || j < 0 || k < 0 || i == nx || j == ny || k == nz;
-        throw std::invalid_argument(message("viscosity: the value at cell (", i, ", ", j, ", ", k, ") is ", value,
-                                            "; it must be finite and > 0",
-                                            ghost ? " (this is a ghost: set them with extend_to_ghosts)" : ""));
+  for (const bool ghosts : {false, true}) {
+    for (int k = -1; k <= nz; ++k) {
+      for (int j = -1; j <= ny; ++j) {
+        for (int i = -1; i <= nx; ++i) {
+          const double value = mu(i, j, k);
+          const bool ghost = i < 0 || j < 0 || k < 0 || i == nx || j == ny || k == nz;
+          if (ghost != ghosts || (std::isfinite(value) && value > 0.0)) continue;
+          throw std::invalid_argument(message("viscosity: the value at cell (", i, ", ", j, ", ", k, ") is ", value,
+                                              "; it must be finite and > 0",
+                                              ghost ? " (this is a ghost: set them with extend_to_ghosts)" : ""));
+        }
       }
     }
   }

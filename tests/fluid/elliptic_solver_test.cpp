@@ -90,35 +90,58 @@ TEST(FftSolver, KeepsItsPlansWhenTheThreadCountIsRaised) {
   EXPECT_LT(relative_residual(problem, rhs.points(), x.points()), 1e-13);
 }
 
-#ifdef VESIFLOW_WITH_CHOLMOD
-TEST(CholmodSolver, AgreesWithTheFastTransforms) {
-  for (const double alpha : {0.0, 10.0}) {
-    const EllipticProblem problem(grid, Centring::cell, BoundaryCondition::neumann, alpha, 2.0);
-    Field<Cell> rhs(grid);
-    test::fill_random(rhs.points(), 31);
-    Field<Cell> x(grid);
-    Field<Cell> y(grid);
-    const SolveReport fft = make_elliptic_solver(problem, FftOptions{})->solve(rhs.points(), x.points());
-    const SolveReport cholmod = make_elliptic_solver(problem, CholmodOptions{})->solve(rhs.points(), y.points());
-    EXPECT_LT(test::max_difference(x.points(), y.points()), 1e-14);
-    EXPECT_NEAR(fft.removed_mean[0], cholmod.removed_mean[0], 1e-15);
-  }
-}
-
-TEST(CholmodSolver, RefusesProblemsThatAreTooLargeAndNamesTheAlternative) {
-  const Grid large({0, 0, 0}, {1, 1, 1}, {128, 128, 128});
-  const EllipticProblem problem(large, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
-  EXPECT_THAT([&] { make_elliptic_solver(problem, CholmodOptions{}); },
-              ThrowsMessage<std::invalid_argument>(
-                  AllOf(HasSubstr("2097152 unknowns"), HasSubstr("memory_limit"), HasSubstr("'fft'"))));
-}
-#else
+#ifndef VESIFLOW_WITH_CHOLMOD
 TEST(CholmodSolver, IsRefusedByABuildWithoutItNamingTheOption) {
   const EllipticProblem problem(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
   EXPECT_THAT([&] { make_elliptic_solver(problem, CholmodOptions{}); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("VESIFLOW_WITH_CHOLMOD")));
 }
 #endif
+
+Viscosity sphere(double ratio) {
+  return Viscosity(sample_viscosity(grid, [ratio](const Vector3& r) { return r[2] < 1.0 ? ratio : 1.0; }));
+}
+
+TEST(ChooseSolver, TakesFastTransformsWhereTheyAreExact) {
+  for (const EllipticProblem& problem : {EllipticProblem(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0),
+                                         EllipticProblem::velocity(grid, EllipticForm::laplacian, 1.0, 2.0)}) {
+    const SolverChoice choice = choose_solver(problem, {});
+    EXPECT_TRUE(std::holds_alternative<FftOptions>(choice.options));
+    EXPECT_THAT(choice.reason, HasSubstr("constant coefficients"));
+    EXPECT_EQ(make_elliptic_solver(problem, AutoOptions{})->name(), "fft");
+  }
+}
+
+TEST(ChooseSolver, TakesConjugateGradientsForModerateRatiosWithTheToleranceGiven) {
+  const auto problem = EllipticProblem::velocity(grid, EllipticForm::stress, 1.0, sphere(20.0));
+  const SolverChoice choice = choose_solver(problem, {.tolerance = 1e-6});
+  const auto* pcg = std::get_if<PcgOptions>(&choice.options);
+  ASSERT_NE(pcg, nullptr);
+  EXPECT_EQ(pcg->tolerance, 1e-6);
+  EXPECT_TRUE(std::holds_alternative<FftOptions>(pcg->preconditioner));
+  EXPECT_THAT(choice.reason, AllOf(HasSubstr("4437 unknowns"), HasSubstr("ratio of viscosities 20"),
+                                   HasSubstr("about 37 iterations")));
+  EXPECT_EQ(estimate_solver_memory(problem, AutoOptions{}), estimate_solver_memory(problem, *pcg));
+}
+
+// A factorisation costs the same for every ratio; iterations do not.
+TEST(ChooseSolver, TakesAFactorisationForAHugeRatioIfThisBuildHasItAndMemoryAllows) {
+  const auto problem = EllipticProblem::velocity(grid, EllipticForm::stress, 1.0, sphere(1e8));
+  const bool factors = std::holds_alternative<CholmodOptions>(choose_solver(problem, {}).options);
+  AutoOptions little_memory;
+  little_memory.memory_limit = 1e5;
+#ifdef VESIFLOW_WITH_CHOLMOD
+  EXPECT_TRUE(factors);
+#else
+  EXPECT_FALSE(factors);
+#endif
+  EXPECT_TRUE(std::holds_alternative<PcgOptions>(choose_solver(problem, little_memory).options));
+}
+
+TEST(ChooseSolver, RefusesAFieldThatIsNotPositive) {
+  const auto problem = EllipticProblem::velocity(grid, EllipticForm::stress, 1.0, sphere(-1.0));
+  EXPECT_THAT([&] { choose_solver(problem, {}); }, ThrowsMessage<std::invalid_argument>(HasSubstr("cell (0, 0, 0)")));
+}
 
 }  // namespace
 }  // namespace vesiflow::fluid

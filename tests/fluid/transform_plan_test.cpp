@@ -88,7 +88,8 @@ TEST_P(Transform, OfLinesAgreesWithTheDefinition) {
 
 TEST_P(Transform, IsAccurateForLongLines) {
   const auto [basis, direction] = GetParam();
-  for (const int n : {500, 509, 511, 512}) EXPECT_LT(line_error(n, basis, direction), 5e-15) << "length " << n;
+  for (const int n : {191, 192, 383, 384, 500, 509, 511, 512})
+    EXPECT_LT(line_error(n, basis, direction), 5e-15) << "length " << n;
 }
 
 TEST_P(Transform, OfPlanesTransformsBothAxesAndNothingElse) {

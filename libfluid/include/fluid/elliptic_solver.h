@@ -77,24 +77,34 @@ struct FftOptions {
 
 // When the factor of a matrix that has changed is computed anew: at an update() if it is at least the every-th since
 // the last factorisation (0: never again), and alpha or mu somewhere differ from the factored ones by more than the
-// fraction `change`. The default keeps the factor exact.
+// fraction `change` of these. The default keeps the factor exact. If a nullspace comes or goes with alpha, the factor is
+// always computed anew.
 struct RefactorPolicy {
   std::int64_t every = 1;
   double change = 0.0;
 };
 
 // Sparse Cholesky factorisation (SuiteSparse CHOLMOD, supernodal). Independent of FFTW; any coefficients, both forms; for
-// small grids. With a policy that lets the factor lag, the solution is still that of the problem: the lagged factor then
-// preconditions conjugate gradients (PcgOptions with their default tolerance). Needs the build option VESIFLOW_WITH_CHOLMOD.
+// small grids. The matrix is analysed once, and then only factored for another alpha or mu. With a policy that lets the
+// factor lag, the solution is still that of the problem: the lagged factor then preconditions conjugate gradients
+// (PcgOptions with their default tolerance). The same bits for any number of threads: OpenBLAS is kept to one meanwhile.
+// Needs the build option VESIFLOW_WITH_CHOLMOD.
+//
+// The limits are checked by a rule of thumb before any work (against twice the limit) and by CHOLMOD's own counts after
+// the analysis. The time is an estimate for one core at 15 Gflop/s.
 struct CholmodOptions {
   double memory_limit = 2e9;  // bytes; problems whose factor is estimated larger are refused
   double time_limit = 600.0;  // seconds; problems whose factorisation is estimated to take longer are refused
   RefactorPolicy refactor;
 };
 
-// Conjugate gradients for any problem, preconditioned by another solver for the same unknowns: "fft" solves the laplacian
-// form with a constant reference viscosity (the number of iterations then depends on the ratio of viscosities, not on the
-// grid), "cholmod" the problem itself with a factor that may lag.
+// Conjugate gradients for any problem, preconditioned by another solver for the same unknowns.
+//
+// "fft" solves the laplacian form with a constant reference viscosity; where mu is a field, between two pointwise scalings
+// by about mu^(-1/4). The iterations to 1e-10 depend on the ratio of the largest viscosity to the smallest as
+// its power 0.3, and not on the grid: 25 for ratio 20 and 40 for ratio 100 in the laplacian form, 39 and 62 in the stress
+// form, 11 for a number mu in the stress form (measured for a smooth sphere, interface of two cells, 16^3 to 48^3).
+// "cholmod" solves the problem itself, with a factor that may lag.
 struct PcgOptions {
   double tolerance = 1e-10;  // of the residual, relative to the right-hand side (2-norms)
   int max_iterations = 1000;
@@ -110,7 +120,11 @@ struct AutoOptions {
 
 using SolverOptions = std::variant<FftOptions, CholmodOptions, PcgOptions, AutoOptions>;
 
-// What "auto" takes for a problem, and why in words.
+// What "auto" takes for a problem, and why in words: "fft" where it is exact; else "cholmod" (in builds that have it) if a
+// factorisation is estimated to be faster than one solve by "pcg" with "fft", which happens for small grids and very
+// large ratios of viscosities; else the latter. A mu that changes at every step is assumed: one factorisation a solve.
+// (A lagged factor does not pay: at 32^3 in the stress form one solve with it takes 63 ms, an iteration with "fft" 3 ms.)
+// Throws std::invalid_argument if a value of mu is not finite and > 0.
 struct SolverChoice {
   SolverOptions options;
   std::string reason;
@@ -122,7 +136,7 @@ SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& op
 std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem, const SolverOptions& options);
 
 // Bytes a solver will take for a problem with the present omp_get_max_threads(): the work arrays of "fft"
-// (FFTW's own tables are small), an empirical rule for "cholmod". Nothing is allocated.
+// (FFTW's own tables are small), an empirical rule for "cholmod", good to a factor of 1.5. Nothing is allocated.
 std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options);
 
 }  // namespace vesiflow::fluid

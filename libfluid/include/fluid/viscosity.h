@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "fluid/field.h"
 
@@ -17,6 +18,7 @@ class Viscosity {
   Viscosity(double value) : value_(value) {}
   // Throws std::invalid_argument for a null pointer.
   Viscosity(std::shared_ptr<const Field<Cell>> field);
+  Viscosity(std::shared_ptr<Field<Cell>> field) : Viscosity(std::shared_ptr<const Field<Cell>>(std::move(field))) {}
 
   bool is_constant() const { return field_ == nullptr; }
   // The number, if it is constant.

@@ -1,0 +1,35 @@
+#include "cholmod_blas.h"
+
+#include <dlfcn.h>
+
+namespace vesiflow::fluid {
+namespace {
+
+// Looked up while running, as BLAS libraries are interchangeable and only this one has the functions.
+struct OpenBlas {
+  using Get = int (*)();
+  using Set = void (*)(int);
+  Get get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  Set set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+
+  bool found() const { return get != nullptr && set != nullptr; }
+};
+
+const OpenBlas& open_blas() {
+  static const OpenBlas functions;
+  return functions;
+}
+
+}  // namespace
+
+OneBlasThread::OneBlasThread() {
+  if (!open_blas().found()) return;
+  before_ = open_blas().get();
+  if (before_ > 1) open_blas().set(1);
+}
+
+OneBlasThread::~OneBlasThread() {
+  if (before_ > 1) open_blas().set(before_);
+}
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,20 @@
+// Keeps the BLAS that CHOLMOD calls to one thread.
+#pragma once
+
+namespace vesiflow::fluid {
+
+// While it lives, OpenBLAS uses one thread: with several it divides its products otherwise, and the last bits of a
+// factor would depend on the number of threads (which it takes from OMP_NUM_THREADS, among others). The number of
+// before is restored. Does nothing for another BLAS.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int before_ = 1;
+};
+
+}  // namespace vesiflow::fluid
