@@ -59,6 +59,8 @@ class Stencil {
 
   // y = A x. Sets the ghosts of x. Parallel over planes.
   void apply(GhostedBlocks& x, Blocks y) const;
+  // The same from all points of arrays whose ghosts have been set, by other conditions perhaps.
+  void apply_to_points(ConstBlocks points, Blocks y) const;
 
  private:
   void apply_row(ConstBlocks points, int block, int j, int k, double* out) const;
@@ -72,6 +74,10 @@ class Stencil {
 // Never inlined, for the same bits wherever it is called from.
 [[gnu::noinline]] void add_stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset,
                                       double factor, int component, int j, int k, double* out);
+
+// The diagonal of -div(mu (grad u + grad u^T)) with homogeneous walls, of a velocity component at its unknowns of row
+// (j, k), as above.
+void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out);
 
 // out += factor div(mu grad x) of one array on a centring, likewise.
 [[gnu::noinline]] void add_variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu,

@@ -68,7 +68,6 @@ double max_abs(const FaceVector& u) {
   return largest;
 }
 
-
 }  // namespace
 
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference) {
@@ -82,8 +81,7 @@ EllipticProblem pressure_problem(const Grid& grid) {
   return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
 }
 
-Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary,
-                 bool steady_boundary)
+Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary, bool steady_boundary)
     : grid(grid_),
       parameters(checked(grid_, parameters_)),
       walls(grid_, std::move(boundary), steady_boundary),
@@ -141,8 +139,8 @@ void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& functio
   start();
 }
 
-void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_,
-                                    const Field<Cell>& pressure_, const FluidClock& clock_) {
+void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, const Field<Cell>& pressure_,
+                      const FluidClock& clock_) {
   if (!(velocity_.grid() == grid && previous_.grid() == grid && pressure_.grid() == grid)) {
     throw std::invalid_argument("fluid: the state to restore is on another grid");
   }

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "fluid/navier_stokes.h"
-#include "step_passes.h"
 #include "stencil.h"
+#include "step_passes.h"
 
 namespace vesiflow::fluid {
 
@@ -50,7 +50,7 @@ class Stepper {
   void project(double a);
 
   CoefficientView unit_, viscosity_;
-  double reference_viscosity_ = 0.0;  // mu, or its largest value
+  double reference_viscosity_ = 0.0;        // mu, or its largest value
   std::optional<FaceVector> convection_;    // N(previous velocity), if there is convection
   std::optional<FaceVector> extrapolated_;  // velocity at the new time, if a field of viscosity needs it
   std::optional<FaceVector> lift_;          // zero but for walls and ghosts, if the stress is implicit
