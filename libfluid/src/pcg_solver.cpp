@@ -76,10 +76,11 @@ void PcgSolver::do_update(const EllipticProblem& problem) {
     int planes = 0;
     for (int block = 0; block < problem.blocks(); ++block) planes = std::max(planes, problem.extent(block)[2]);
     plane_sums_ = PlaneSums(planes);
+    stencil_ = std::make_unique<Stencil>(problem);
   } else {
     preconditioner_->update(reference);
+    stencil_->update(problem);
   }
-  stencil_ = std::make_unique<Stencil>(problem);
   if (scaled(problem, options_)) {
     set_scale(problem, reference.mu.value());
   } else {

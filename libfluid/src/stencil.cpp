@@ -127,7 +127,7 @@ void GhostedBlocks::set_ghosts() {
   }
 }
 
-CoefficientView::CoefficientView(const Grid& grid, const Viscosity& mu) {
+void CoefficientView::set(const Grid& grid, const Viscosity& mu) {
   if (mu.is_constant()) {
     row_.assign(static_cast<std::size_t>(grid.cells[0]) + 2, mu.value());
     view_ = {row_.data() + 1, grid.cells, 0, 0};
@@ -137,6 +137,11 @@ CoefficientView::CoefficientView(const Grid& grid, const Viscosity& mu) {
 }
 
 Stencil::Stencil(const EllipticProblem& problem) : problem_(problem), mu_(problem.grid, problem.mu) {}
+
+void Stencil::update(const EllipticProblem& problem) {
+  problem_ = problem;
+  mu_.set(problem.grid, problem.mu);
+}
 
 void Stencil::apply(GhostedBlocks& x, Blocks y) const {
   x.set_ghosts();

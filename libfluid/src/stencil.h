@@ -39,7 +39,11 @@ class GhostedBlocks {
 // The coefficient as an array with ghosts, whether it is one or not.
 class CoefficientView {
  public:
-  CoefficientView(const Grid& grid, const Viscosity& mu);
+  CoefficientView(const Grid& grid, const Viscosity& mu) { set(grid, mu); }
+  CoefficientView(const CoefficientView&) = delete;
+  CoefficientView& operator=(const CoefficientView&) = delete;
+  // Allocates at most for the first constant.
+  void set(const Grid& grid, const Viscosity& mu);
   operator ConstView() const { return view_; }
 
  private:
@@ -50,6 +54,8 @@ class CoefficientView {
 class Stencil {
  public:
   explicit Stencil(const EllipticProblem& problem);
+  // Another alpha or mu.
+  void update(const EllipticProblem& problem);
 
   // y = A x. Sets the ghosts of x. Parallel over planes.
   void apply(GhostedBlocks& x, Blocks y) const;
