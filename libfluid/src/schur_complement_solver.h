@@ -11,9 +11,8 @@
 namespace vesiflow::fluid {
 
 // Eliminates the velocity: S p = B A^-1 r_u - r_p with S = B A^-1 B^T, B = -div, A = -mu Lap. As div u = 0 the laplacian
-// and the stress form have the same solution. The eigenvalues of mu S are 1 without walls, and in any box with walls
-// between about 0.18 and 1 whatever the grid (most are 1, and those of pressures that vary along an edge accumulate at
-// 1/2 +- 1/pi).
+// and the stress form have the same solution. The eigenvalues of mu S are 1 without walls; with walls they lie
+// between a number that depends on the shape of the box, but not on the grid, and 1.
 class SchurComplementSolver final : public SaddleSolver {
  public:
   SchurComplementSolver(const Grid& grid, double mu);

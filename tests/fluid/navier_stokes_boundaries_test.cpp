@@ -45,9 +45,7 @@ TEST(NavierStokes, ProjectsARandomVelocityToRoundOffWithEveryMixOfBoundaries) {
 
 TEST(NavierStokes, PreservesShearFlowBetweenTwoWalls) {
   const Grid grid({0, -1, 0}, {1, 2, 5}, {7, 11, 13}, {true, true, false});
-  const auto shear = [](const Vector3& r, double) {
-    return Vector3{r[2], 0.0, 0.0};
-  };
+  const auto shear = [](const Vector3& r, double) { return Vector3{r[2], 0.0, 0.0}; };
   NavierStokes fluid(grid, {}, shear);
   fluid.set_velocity([&](const Vector3& r) { return shear(r, 0.0); });
   const FaceVector start = fluid.velocity().clone();
@@ -60,7 +58,8 @@ struct TaylorGreen {
   double a, b, reynolds_number;
   Vector3 velocity(const Vector3& r, double t) const {
     const double decay = std::exp(-(a * a + b * b) * t / reynolds_number);
-    return {std::sin(a * r[0]) * std::cos(b * r[1]) * decay, -a / b * std::cos(a * r[0]) * std::sin(b * r[1]) * decay, 0.0};
+    return {std::sin(a * r[0]) * std::cos(b * r[1]) * decay, -a / b * std::cos(a * r[0]) * std::sin(b * r[1]) * decay,
+            0.0};
   }
   double pressure(const Vector3& r, double t) const {
     const double decay = std::exp(-2 * (a * a + b * b) * t / reynolds_number);
@@ -123,9 +122,9 @@ TEST(NavierStokes, FollowsATranslationAlongAPeriodicAxis) {
 
 TEST(WallVelocity, RefusesAFunctionThatDiffersAtTheEndsOfAPeriodicAxis) {
   const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {false, false, true});
-  EXPECT_THAT(([&] {
-                NavierStokes(grid, {}, [](const Vector3& r, double) { return Vector3{r[2], 0.0, 0.0}; });
-              }),
+  EXPECT_THAT(([&] { NavierStokes(grid, {}, [](const Vector3& r, double) {
+                       return Vector3{r[2], 0.0, 0.0};
+                     }); }),
               ThrowsMessage<std::invalid_argument>(HasSubstr("periodic axis 2")));
   EXPECT_THAT([&] { NavierStokes(grid, {}); }, ThrowsMessage<std::invalid_argument>(HasSubstr("empty function")));
 }

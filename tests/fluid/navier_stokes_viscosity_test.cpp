@@ -63,9 +63,7 @@ TEST(VariableViscosity, LayeredShearHasConstantStress) {
     parameters.reynolds_number = 0.1;
     parameters.viscous_treatment = treatment;
     parameters.viscosity = sample_viscosity(layers, [](const Vector3& r) { return r[2] < 0.0 ? 1.0 : 10.0; });
-    const auto wall = [](const Vector3& r, double) {
-      return Vector3{r[2] > 0 ? 1.0 : 0.0, 0.0, 0.0};
-    };
+    const auto wall = [](const Vector3& r, double) { return Vector3{r[2] > 0 ? 1.0 : 0.0, 0.0, 0.0}; };
     NavierStokes fluid(layers, parameters, wall);
     for (int k = 0; k < 400; ++k) fluid.step(0.05);
     // Between the middles of the outermost cells: 11 1/2 gaps of one viscosity, the gap of mean viscosity 5.5, 11 1/2 of
@@ -101,7 +99,8 @@ TEST(VariableViscosity, GivesTheSameBitsForEveryNumberOfThreads) {
   for (const ViscousTreatment treatment : treatments) {
     const auto run = [&](int threads) {
       const test::ThreadCount count(threads);
-      NavierStokes fluid = make(treatment, sample_viscosity(grid, [](const Vector3& r) { return sphere(r, 5.0, 0.2); }));
+      NavierStokes fluid =
+          make(treatment, sample_viscosity(grid, [](const Vector3& r) { return sphere(r, 5.0, 0.2); }));
       set_force(fluid);
       for (int k = 0; k < 3; ++k) fluid.step(0.02);
       return fluid.velocity().clone();
