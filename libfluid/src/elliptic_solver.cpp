@@ -106,14 +106,14 @@ SolveReport EllipticSolver::solve(ConstBlocks rhs, Blocks x) {
 }
 
 std::string name(const SolverOptions& options) {
-  return std::visit(
-      Overloaded{[](const FftOptions&) -> std::string { return "fft"; },
-                 [](const CholmodOptions&) -> std::string { return "cholmod"; },
-                 [](const PcgOptions& pcg) -> std::string {
-                   return std::holds_alternative<FftOptions>(pcg.preconditioner) ? "pcg+fft" : "pcg+cholmod";
-                 },
-                 [](const AutoOptions&) -> std::string { return "auto"; }},
-      options);
+  return std::visit(Overloaded{[](const FftOptions&) -> std::string { return "fft"; },
+                               [](const CholmodOptions&) -> std::string { return "cholmod"; },
+                               [](const PcgOptions& pcg) -> std::string {
+                                 return std::holds_alternative<FftOptions>(pcg.preconditioner) ? "pcg+fft"
+                                                                                               : "pcg+cholmod";
+                               },
+                               [](const AutoOptions&) -> std::string { return "auto"; }},
+                    options);
 }
 
 SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& options) {

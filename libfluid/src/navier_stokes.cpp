@@ -71,14 +71,16 @@ std::size_t NavierStokes::estimate_memory(const Grid& grid, const FluidParameter
     return sizeof(double) * static_cast<std::size_t>(n[0] + 2) * (n[1] + 2) * (n[2] + 2);
   };
   const bool variable = !parameters.viscosity.is_constant();
+  const bool stokes = parameters.inertia == Inertia::none;
   std::size_t vectors = 3;
   if (parameters.inertia == Inertia::full) ++vectors;
-  if (variable && parameters.viscous_treatment != ViscousTreatment::explicit_) ++vectors;
-  if (variable && parameters.viscous_treatment == ViscousTreatment::implicit) ++vectors;
+  if (!stokes && variable && parameters.viscous_treatment != ViscousTreatment::explicit_) ++vectors;
+  if (!stokes && variable && parameters.viscous_treatment == ViscousTreatment::implicit) ++vectors;
   std::size_t bytes = 2 * field_bytes(Centring::cell);
   for (const Centring centring : face_centrings) bytes += vectors * field_bytes(centring);
-  return bytes + estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver) +
-         estimate_solver_memory(momentum_problem(grid, parameters, 1.0, 1.0), parameters.velocity_solver);
+  bytes += estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver);
+  if (stokes) return bytes + StokesSolver::estimate_memory(grid, variable);
+  return bytes + estimate_solver_memory(momentum_problem(grid, parameters, 1.0, 1.0), parameters.velocity_solver);
 }
 
 }  // namespace vesiflow::fluid

@@ -90,7 +90,11 @@ class VelocityMultigrid::Level {
 
   // Returns that of the coarser grid, if there is one.
   std::optional<Viscosity> update(const Viscosity& mu) {
-    stencil = std::make_unique<Stencil>(viscous_problem(grid, mu));
+    if (stencil) {
+      stencil->update(viscous_problem(grid, mu));
+    } else {
+      stencil = std::make_unique<Stencil>(viscous_problem(grid, mu));
+    }
     set_diagonal(CoefficientView(grid, mu));
     if (!average_) return {};
     if (mu.is_constant()) return mu;
