@@ -3,11 +3,10 @@
 namespace vesiflow::fluid {
 
 template <class SumOfPlane>
-double PlaneSums::total(int planes, SumOfPlane&& sum_of_plane) {
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < planes; ++k) sums_[k] = sum_of_plane(k);
+double PlaneSums::total(const std::array<int, 3>& extent, SumOfPlane&& sum_of_plane) {
+  for_each_plane(extent, [&](int k) { sums_[k] = sum_of_plane(k); });
   double sum = 0.0;
-  for (int k = 0; k < planes; ++k) sum += sums_[k];
+  for (int k = 0; k < extent[2]; ++k) sum += sums_[k];
   return sum;
 }
 
@@ -15,7 +14,7 @@ double PlaneSums::dot(ConstBlocks a, ConstBlocks b) {
   double sum_of_blocks = 0.0;
   for (int block = 0; block < a.count(); ++block) {
     const auto n = a[block].extent;
-    sum_of_blocks += total(n[2], [&](int k) {
+    sum_of_blocks += total(n, [&](int k) {
       double sum = 0.0;
       for (int j = 0; j < n[1]; ++j) {
         const double* x = a[block].row(j, k);
@@ -34,7 +33,7 @@ std::array<double, 3> PlaneSums::remove_means(Blocks x) {
   for (int block = 0; block < x.count(); ++block) {
     const View& view = x[block];
     const auto n = view.extent;
-    means[block] = total(n[2], [&](int k) {
+    means[block] = total(n, [&](int k) {
       double sum = 0.0;
       for (int j = 0; j < n[1]; ++j) {
         for (int i = 0; i < n[0]; ++i) sum += view(i, j, k);
@@ -42,12 +41,11 @@ std::array<double, 3> PlaneSums::remove_means(Blocks x) {
       return sum;
     });
     means[block] /= static_cast<double>(n[0]) * n[1] * n[2];
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < n[2]; ++k) {
+    for_each_plane(n, [&](int k) {
       for (int j = 0; j < n[1]; ++j) {
         for (int i = 0; i < n[0]; ++i) view(i, j, k) -= means[block];
       }
-    }
+    });
   }
   return means;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fluid/view.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 
@@ -15,10 +16,9 @@ template <class Visit>
 void for_each_row(ConstBlocks x, Blocks y, Visit&& visit) {
   for (int block = 0; block < y.count(); ++block) {
     const View& to = y[block];
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < to.extent[2]; ++k) {
+    for_each_plane(to.extent, [&](int k) {
       for (int j = 0; j < to.extent[1]; ++j) visit(to.row(j, k), x[block].row(j, k), to.extent[0]);
-    }
+    });
   }
 }
 
@@ -64,7 +64,7 @@ class PlaneSums {
 
  private:
   template <class SumOfPlane>
-  double total(int planes, SumOfPlane&& sum_of_plane);
+  double total(const std::array<int, 3>& extent, SumOfPlane&& sum_of_plane);
 
   std::vector<double> sums_;
 };

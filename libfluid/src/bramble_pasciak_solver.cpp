@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "planes.h"
 #include "stokes_operator.h"
 
 namespace vesiflow::fluid {
@@ -33,8 +34,7 @@ void BramblePasciakSolver::update(const Viscosity& mu) {
 
 void BramblePasciakSolver::multiply_by_viscosity(double factor, ConstView p, View product) const {
   const ConstView mu = mu_.field().points();
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < p.extent[2]; ++k) {
+  for_each_plane(p.extent, [&](int k) {
     for (int j = 0; j < p.extent[1]; ++j) {
       const double* m = mu.row(j, k);
       const double* from = p.row(j, k);
@@ -42,7 +42,7 @@ void BramblePasciakSolver::multiply_by_viscosity(double factor, ConstView p, Vie
 #pragma omp simd
       for (int i = 0; i < p.extent[0]; ++i) to[i] = factor * m[i] * from[i];
     }
-  }
+  });
 }
 
 // <r_p, mu r_p>.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convection_row.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -30,8 +31,7 @@ struct CellDivergence {
 void gradient(const Field<Cell>& p, FaceVector& g) {
   const auto fields = g.points();
   const ConstView cells = p.points();
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < cells.extent[2]; ++k) {
+  for_each_plane(cells.extent, [&](int k) {
     for (int component = 0; component < 3; ++component) {
       const UnknownRange range = unknown_range(p.grid(), component);
       const double per_h = 1.0 / p.grid().spacing(component);
@@ -43,13 +43,12 @@ void gradient(const Field<Cell>& p, FaceVector& g) {
         for (int i = range.begin[0]; i < range.end[0]; ++i) out[i] = (here[i] - here[i - back]) * per_h;
       }
     }
-  }
+  });
 }
 
 void divergence(const FaceVector& u, Field<Cell>& d) {
   const CellDivergence cell_divergence(u);
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < d.extent(2); ++k) {
+  for_each_plane(d.extent(), [&](int k) {
     for (int j = 0; j < d.extent(1); ++j) {
       const double* x = u.x.row(j, k);
       const double* y = u.y.row(j, k);
@@ -58,23 +57,22 @@ void divergence(const FaceVector& u, Field<Cell>& d) {
 #pragma omp simd
       for (int i = 0; i < d.extent(0); ++i) out[i] = cell_divergence(x + i, y + i, z + i);
     }
-  }
+  });
 }
 
 double max_divergence(const FaceVector& u) {
   const CellDivergence cell_divergence(u);
   const auto& n = u.grid().cells;
-  double largest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : largest)
-  for (int k = 0; k < n[2]; ++k) {
+  return max_over_planes(n, [&](int k) {
+    double largest = 0.0;
     for (int j = 0; j < n[1]; ++j) {
       const double* x = u.x.row(j, k);
       const double* y = u.y.row(j, k);
       const double* z = u.z.row(j, k);
       for (int i = 0; i < n[0]; ++i) largest = std::max(largest, std::abs(cell_divergence(x + i, y + i, z + i)));
     }
-  }
-  return largest;
+    return largest;
+  });
 }
 
 UnknownRange unknown_range(const Grid& grid, int component) {
@@ -114,8 +112,7 @@ void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int com
 void convection(const FaceVector& u, FaceVector& n) {
   const auto fields = u.points();
   const auto results = n.points();
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < u.grid().cells[2]; ++k) {
+  for_each_plane(u.grid().cells, [&](int k) {
     for (int component = 0; component < 3; ++component) {
       const UnknownRange range = unknown_range(u.grid(), component);
       for (int j = range.begin[1]; j < range.end[1]; ++j) {
@@ -124,7 +121,7 @@ void convection(const FaceVector& u, FaceVector& n) {
         }
       }
     }
-  }
+  });
 }
 
 }  // namespace vesiflow::fluid

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "message.h"
+#include "planes.h"
 #include "solver_factory.h"
 
 namespace vesiflow::fluid {
@@ -105,8 +106,7 @@ void PcgSolver::set_scale(const EllipticProblem& problem, double reference) {
                                  : centring == Centring::face_y ? mu.row_stride
                                  : centring == Centring::face_z ? mu.plane_stride
                                                                 : 0;
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < scale.extent[2]; ++k) {
+    for_each_plane(scale.extent, [&](int k) {
       for (int j = 0; j < scale.extent[1]; ++j) {
         const double* above =
             mu.row(j + first_unknown(problem.grid, centring, 1), k + first_unknown(problem.grid, centring, 2)) +
@@ -117,7 +117,7 @@ void PcgSolver::set_scale(const EllipticProblem& problem, double reference) {
           row[i] = std::sqrt(std::sqrt(numerator / (problem.alpha + here * per_viscosity)));
         }
       }
-    }
+    });
   }
 }
 

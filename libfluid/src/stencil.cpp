@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "convection_row.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -86,10 +87,9 @@ GhostedBlocks::GhostedBlocks(const EllipticProblem& problem)
 void GhostedBlocks::assign(ConstBlocks x) {
   for (int block = 0; block < count_; ++block) {
     const View to = unknowns_[block];
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < to.extent[2]; ++k) {
+    for_each_plane(to.extent, [&](int k) {
       for (int j = 0; j < to.extent[1]; ++j) std::copy_n(x[block].row(j, k), to.extent[0], to.row(j, k));
-    }
+    });
   }
 }
 
@@ -155,12 +155,11 @@ void Stencil::apply_to_points(ConstBlocks points, Blocks y) const {
     const Centring centring = problem_.centring(block);
     const std::array<int, 3> first{first_unknown(grid, centring, 0), first_unknown(grid, centring, 1),
                                    first_unknown(grid, centring, 2)};
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < n[2]; ++k) {
+    for_each_plane(n, [&](int k) {
       for (int j = 0; j < n[1]; ++j) {
         apply_row(points, block, j + first[1], k + first[2], y[block].row(j, k) - first[0]);
       }
-    }
+    });
   }
 }
 
@@ -260,8 +259,7 @@ void add_stress(const FaceVector& u, ConstView mu, double offset, FaceVector& f)
   const Grid& grid = u.grid();
   const auto velocity = u.points();
   const auto forces = f.points();
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < grid.cells[2]; ++k) {
+  for_each_plane(grid.cells, [&](int k) {
     for (int component = 0; component < 3; ++component) {
       const UnknownRange range = unknown_range(grid, component);
       for (int j = range.begin[1]; j < range.end[1]; ++j) {
@@ -269,7 +267,7 @@ void add_stress(const FaceVector& u, ConstView mu, double offset, FaceVector& f)
         add_stress_row(grid, velocity, mu, offset, 1.0, component, j, k, forces[component].row(j, k));
       }
     }
-  }
+  });
 }
 
 // Beyond a wall half a cell away the ghost is minus the value here, so that the edge on the wall counts twice.

@@ -2,6 +2,7 @@
 
 #include "convection_row.h"
 #include "fluid/viscosity.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -74,24 +75,22 @@ void explicit_terms(const StepCoefficients& coefficients, double reynolds_number
     for (int i = range.begin[0]; i < range.end[0]; ++i) out[i] -= n1 * n[i];
   };
 
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < grid.cells[2]; ++k) {
+  for_each_plane(grid.cells, [&](int k) {
     for (int component = 0; component < 3; ++component) {
       const UnknownRange range = unknown_range(grid, component);
       for (int j = range.begin[1]; j < range.end[1]; ++j) {
         if (range.contains_row(j, k)) row(component, range, j, k);
       }
     }
-  }
+  });
 }
 
 void remove_divergence(Field<Cell>& chi, FaceVector& u) {
   extend_to_ghosts(chi);
   const Vector3 per_h = inverse_spacing(chi.grid());
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < chi.extent(2); ++k) {
+  for_each_plane(chi.extent(), [&](int k) {
     for (int j = 0; j < chi.extent(1); ++j) add_gradient_row(chi, per_h, j, k, u);
-  }
+  });
 }
 
 void correct_velocity_and_pressure(Field<Cell>& chi, double a, ConstView mu, double factor, FaceVector& u,
@@ -101,8 +100,7 @@ void correct_velocity_and_pressure(Field<Cell>& chi, double a, ConstView mu, dou
   const Vector3 per_h = inverse_spacing(chi.grid());
   const Vector3 m{factor * per_h[0] * per_h[0], factor * per_h[1] * per_h[1], factor * per_h[2] * per_h[2]};
   const double diagonal = 2.0 * (m[0] + m[1] + m[2]);
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < c.extent(2); ++k) {
+  for_each_plane(c.extent(), [&](int k) {
     for (int j = 0; j < c.extent(1); ++j) {
       add_gradient_row(c, per_h, j, k, u);
       const double* here = c.row(j, k);
@@ -119,17 +117,20 @@ void correct_velocity_and_pressure(Field<Cell>& chi, double a, ConstView mu, dou
                 a * here[i];
       }
     }
-  }
+  });
 }
 
 void extrapolate(const FaceVector& u, const FaceVector& previous, double r, FaceVector& e) {
   const auto extrapolate_field = [r](const auto& now, const auto& before, auto& result) {
-    const double* x = now.data();
-    const double* y = before.data();
-    double* out = result.data();
-    const std::size_t size = now.size();
-#pragma omp parallel for simd schedule(static)
-    for (std::size_t i = 0; i < size; ++i) out[i] = (1.0 + r) * x[i] - r * y[i];
+    const auto n = now.extent();
+    for_each_plane({n[0] + 2, n[1] + 2, n[2] + 2}, [&](int k) {
+      const std::ptrdiff_t plane = now.stride(2);
+      const double* x = now.data() + k * plane;
+      const double* y = before.data() + k * plane;
+      double* out = result.data() + k * plane;
+#pragma omp simd
+      for (std::ptrdiff_t i = 0; i < plane; ++i) out[i] = (1.0 + r) * x[i] - r * y[i];
+    });
   };
   extrapolate_field(u.x, previous.x, e.x);
   extrapolate_field(u.y, previous.y, e.y);

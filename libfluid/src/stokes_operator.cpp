@@ -1,4 +1,5 @@
 #include "stokes_operator.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 
@@ -10,8 +11,7 @@ void add_gradient(const Grid& grid, GhostedBlocks& p, Blocks y) {
     const double per_h = 1.0 / grid.spacing(component);
     const int first = first_unknown(grid, face_centrings[component], component);
     const std::ptrdiff_t back = component == 0 ? 1 : component == 1 ? cells.row_stride : cells.plane_stride;
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < to.extent[2]; ++k) {
+    for_each_plane(to.extent, [&](int k) {
       for (int j = 0; j < to.extent[1]; ++j) {
         const double* above = cells.row(j, k) + first * back;
         const double* below = above - back;
@@ -19,7 +19,7 @@ void add_gradient(const Grid& grid, GhostedBlocks& p, Blocks y) {
 #pragma omp simd
         for (int i = 0; i < to.extent[0]; ++i) out[i] += (above[i] - below[i]) * per_h;
       }
-    }
+    });
   }
 }
 
@@ -28,8 +28,7 @@ void negative_divergence(const Grid& grid, ConstBlocks u_points, View d) {
   const double x_per_h = 1.0 / grid.spacing(0);
   const double y_per_h = 1.0 / grid.spacing(1);
   const double z_per_h = 1.0 / grid.spacing(2);
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < d.extent[2]; ++k) {
+  for_each_plane(d.extent, [&](int k) {
     for (int j = 0; j < d.extent[1]; ++j) {
       const double* x = ux.row(j, k);
       const double* south = uy.row(j, k);
@@ -42,7 +41,7 @@ void negative_divergence(const Grid& grid, ConstBlocks u_points, View d) {
         out[i] = (x[i] - x[i + 1]) * x_per_h + (south[i] - north[i]) * y_per_h + (below[i] - above[i]) * z_per_h;
       }
     }
-  }
+  });
 }
 
 }  // namespace vesiflow::fluid

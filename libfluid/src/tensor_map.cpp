@@ -1,4 +1,5 @@
 #include "tensor_map.h"
+#include "planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,8 +91,7 @@ TensorMap::TensorMap(std::array<LineMap, 3> lines)
 template <bool accumulate>
 void TensorMap::apply(ConstView from, View to) {
   const int nx = from.extent[0];
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < to.extent[2]; ++k) {
+  for_each_plane(to.extent, [&](int k) {
     double* row = rows_.data() + static_cast<std::size_t>(k) * nx;
     for (int j = 0; j < to.extent[1]; ++j) {
       std::fill_n(row, nx, 0.0);
@@ -110,7 +110,7 @@ void TensorMap::apply(ConstView from, View to) {
         out[i] = sum;
       }
     }
-  }
+  });
 }
 
 template void TensorMap::apply<false>(ConstView, View);

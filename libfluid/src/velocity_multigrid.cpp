@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "block_algebra.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -130,14 +131,13 @@ class VelocityMultigrid::Level {
       const int k_first = first_unknown(grid, face_centrings[c], 2);
       const int i_first = first_unknown(grid, face_centrings[c], 0);
       const View view = inverse[c];
-#pragma omp parallel for schedule(static)
-      for (int k = 0; k < view.extent[2]; ++k) {
+      for_each_plane(view.extent, [&](int k) {
         for (int j = 0; j < view.extent[1]; ++j) {
           double* row = view.row(j, k);
           stress_diagonal_row(grid, mu, c, j + j_first, k + k_first, row - i_first);
           for (int i = 0; i < view.extent[0]; ++i) row[i] = 1.0 / row[i];
         }
-      }
+      });
     }
   }
 
@@ -146,8 +146,7 @@ class VelocityMultigrid::Level {
     const ConstBlocks inverse = std::as_const(inverse_diagonal_).unknowns();
     for (int c = 0; c < 3; ++c) {
       const View view = x.unknowns()[c];
-#pragma omp parallel for schedule(static)
-      for (int k = 0; k < view.extent[2]; ++k) {
+      for_each_plane(view.extent, [&](int k) {
         for (int j = 0; j < view.extent[1]; ++j) {
           double* to = view.row(j, k);
           const double* from = r[c].row(j, k);
@@ -155,7 +154,7 @@ class VelocityMultigrid::Level {
 #pragma omp simd
           for (int i = 0; i < view.extent[0]; ++i) to[i] += damping * scale[i] * from[i];
         }
-      }
+      });
     }
   }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "message.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -44,19 +45,23 @@ Viscosity::Range Viscosity::checked_range() const {
     }
     return {value_, value_};
   }
-  const double* mu = field_->data();
-  const std::size_t size = field_->size();
-  double min = std::numeric_limits<double>::infinity();
-  double max = 0.0;
-  bool sound = true;
-#pragma omp parallel for schedule(static) reduction(min : min) reduction(max : max) reduction(&& : sound)
-  for (std::size_t i = 0; i < size; ++i) {
-    sound = sound && mu[i] > 0.0 && mu[i] <= std::numeric_limits<double>::max();
-    min = std::min(min, mu[i]);
-    max = std::max(max, mu[i]);
-  }
-  if (!sound) refuse(*field_);
-  return {min, max};
+  const auto n = field_->extent();
+  const std::array<int, 3> stored{n[0] + 2, n[1] + 2, n[2] + 2};
+  // Both as largest values, infinite for what is not a viscosity.
+  const auto largest = [&](auto&& key) {
+    return max_over_planes(stored, [&](int k) {
+      const double* mu = field_->data() + k * field_->stride(2);
+      double value = -std::numeric_limits<double>::infinity();
+      for (std::ptrdiff_t i = 0; i < field_->stride(2); ++i) {
+        const bool sound = mu[i] > 0.0 && mu[i] <= std::numeric_limits<double>::max();
+        value = std::max(value, sound ? key(mu[i]) : std::numeric_limits<double>::infinity());
+      }
+      return value;
+    });
+  };
+  const double max = largest([](double mu) { return mu; });
+  if (std::isinf(max)) refuse(*field_);
+  return {-largest([](double mu) { return -mu; }), max};
 }
 
 void extend_to_ghosts(Field<Cell>& field) {
