@@ -8,19 +8,21 @@ namespace {
 
 TEST(Allocation, NoneInAWarmedUpStep) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
-  const Grid grid({0, 0, 0}, {1, 1, 1}, {12, 13, 14});
-  NavierStokes fluid(
-      grid, {},
-      [](const Vector3& r, double t) {
-        return Vector3{r[2] * t, 0, 0};
-      },
-      false);
-  fluid.step(0.1);
-  fluid.step(0.1);
-  const long before = test::allocation_count();
-  fluid.step(0.1);
-  fluid.step(0.05);
-  EXPECT_EQ(test::allocation_count() - before, 0);
+  for (const int cells : {12, 28}) {  // with one thread and with all
+    const Grid grid({0, 0, 0}, {1, 1, 1}, {cells, cells + 1, cells + 2});
+    NavierStokes fluid(
+        grid, {},
+        [](const Vector3& r, double t) {
+          return Vector3{r[2] * t, 0, 0};
+        },
+        false);
+    fluid.step(0.1);
+    fluid.step(0.1);
+    const long before = test::allocation_count();
+    fluid.step(0.1);
+    fluid.step(0.05);
+    EXPECT_EQ(test::allocation_count() - before, 0);
+  }
 }
 
 }  // namespace

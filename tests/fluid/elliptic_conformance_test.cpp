@@ -278,8 +278,11 @@ TEST_P(EllipticConformance, RefusesWrongShapesAndNonFiniteData) {
 }
 
 TEST_P(EllipticConformance, GivesTheSameBitsForEveryNumberOfThreads) {
+  // Large enough for threads (libfluid/src/planes.h), but for factorisations, whose time would be seconds.
+  const bool factors = std::string(backend().name).find("cholmod") != std::string::npos;
+  const Grid grid = factors ? one_grid : Grid({0, 0, 0}, {1, 2, 3}, {31, 27, 23});
   for_each_kind([&](const auto& problem) {
-    const EllipticProblem p = problem(one_grid, 0.0);
+    const EllipticProblem p = problem(grid, 0.0);
     const Numbers rhs(p, 21);
     const std::array<Numbers, 3> x{Numbers(p), Numbers(p), Numbers(p)};
     const std::array<int, 3> threads{1, 2, 5};

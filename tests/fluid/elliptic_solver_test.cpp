@@ -61,25 +61,12 @@ TEST(EllipticProblem, ResidualOfAWrongSolutionIsNotSmall) {
   EXPECT_DOUBLE_EQ(relative_residual(problem, rhs.points(), zero.points()), 1.0);
 }
 
-TEST(FftSolver, GivesTheSameBitsForEveryNumberOfThreads) {
-  const EllipticProblem problem(grid, Centring::face_x, BoundaryCondition::dirichlet, 3.0, 1.0);
-  Field<FaceX> rhs(grid);
-  test::fill_random(rhs.unknowns(), 21);
-  std::vector<Field<FaceX>> solutions;
-  for (const int threads : {1, 2, 5}) {
-    const test::ThreadCount count(threads);
-    const auto solver = make_elliptic_solver(problem, FftOptions{});
-    solver->solve(rhs.unknowns(), solutions.emplace_back(grid).unknowns());
-  }
-  EXPECT_TRUE(test::same_bits(solutions[0], solutions[1]));
-  EXPECT_TRUE(test::same_bits(solutions[0], solutions[2]));
-}
-
 TEST(FftSolver, KeepsItsPlansWhenTheThreadCountIsRaised) {
-  const EllipticProblem problem(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
-  Field<Cell> rhs(grid);
+  const Grid large({0, 0, 0}, {1, 2, 3}, {31, 27, 23});
+  const EllipticProblem problem(large, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
+  Field<Cell> rhs(large);
   test::fill_random(rhs.points(), 22);
-  Field<Cell> x(grid);
+  Field<Cell> x(large);
   std::unique_ptr<EllipticSolver> solver;
   {
     const test::ThreadCount one(1);

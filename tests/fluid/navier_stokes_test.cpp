@@ -139,7 +139,8 @@ TEST(NavierStokes, StokesFlowIsLinearInTheForce) {
 TEST(NavierStokes, GivesTheSameBitsForEveryNumberOfThreads) {
   const auto run = [](int threads) {
     const test::ThreadCount count(threads);
-    NavierStokes fluid(grids[1], {}, stirring, false);
+    const Grid large({0, -1, 0}, {1, 2, 5}, {27, 26, 29});  // small ones are left to one thread
+    NavierStokes fluid(large, {}, stirring, false);
     fluid.set_velocity(swirl);
     set_random_force(fluid, 12);
     for (int k = 0; k < 4; ++k) fluid.step(0.02);
