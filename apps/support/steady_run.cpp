@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
 
 using namespace vesiflow::fluid;
 
@@ -14,6 +15,7 @@ namespace {
 // The change and the time step are looked at every so many steps.
 constexpr std::int64_t interval = 10;
 constexpr double seconds_between_reports = 1.0;
+constexpr double usual_speed = 1.0, impossible_speed = 100.0;
 
 class WallClock {
  public:
@@ -61,10 +63,19 @@ class Progress {
 // Keeps the present step as long as it is allowed and not much too short: another one costs the solver an update.
 double choose_time_step(const SteadyOptions& options, const FaceVector& velocity, double present) {
   if (options.time_step) return *options.time_step;
-  const double allowed = std::min(options.courant_number / courant_rate(velocity), options.largest_time_step);
+  const double rate = std::max(courant_rate(velocity), usual_speed / velocity.grid().min_spacing());
+  const double allowed = std::min(options.courant_number / rate, options.largest_time_step);
   if (present > 0.7 * allowed && present <= allowed) return present;
   const double chosen = std::min(0.9 * allowed, options.largest_time_step);
   return present > 0 ? std::min(chosen, 2 * present) : chosen;  // BDF2 is unstable in steps that grow faster
+}
+
+void check_bounded(const NavierStokes& fluid, const SteadyRun& run) {
+  if (courant_rate(fluid.velocity()) * fluid.grid().min_spacing() < 3 * impossible_speed) return;
+  throw std::runtime_error(
+      fmt::format("the velocity has passed {} at time {:g} with time step {:g}: take a smaller --time-step or "
+                  "--courant-number, or more cells",
+                  impossible_speed, fluid.time(), run.time_step));
 }
 
 }  // namespace
@@ -106,6 +117,7 @@ SteadyRun run_to_steady_state(NavierStokes& fluid, const SteadyOptions& options)
     if (run.steps % interval == 0 || fluid.time() >= options.end) {
       run.change = max_difference(fluid.velocity(), fluid.previous_velocity()) / run.time_step * options.time_scale;
       run.steady = run.change <= options.tolerance;
+      check_bounded(fluid, run);
       progress.report(fluid.time(), run.change, clock.seconds());
     }
   }

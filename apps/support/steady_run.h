@@ -11,7 +11,8 @@ struct SteadyOptions {
   double tolerance = 1e-8;
   double time_scale = 1.0;
   std::optional<double> time_step;  ///< fixed; else chosen by the two limits below
-  /// max over the cells of dt (|u|/dx + |v|/dy + |w|/dz), the explicit convection's limit.
+  /// max over the cells of dt (|u|/dx + |v|/dy + |w|/dz), the explicit convection's limit. The flow's velocities are taken to
+  /// be of order 1: it starts as if one of 1 were there already.
   double courant_number = 0.5;
   double largest_time_step = 1.0;
   double end = 1e3;      ///< gives up at this time
@@ -27,7 +28,8 @@ struct SteadyRun {
   double seconds = 0;  ///< wall time
 };
 
-/// Steps the flow from where it is. Throws what NavierStokes::step() throws.
+/// Steps the flow from where it is. Throws what NavierStokes::step() throws, and std::runtime_error with the time and the
+/// step if the velocity passes 100: the step was too long for the explicit convection.
 SteadyRun run_to_steady_state(vesiflow::fluid::NavierStokes& fluid, const SteadyOptions& options);
 
 /// max over the cells of |u|/dx + |v|/dy + |w|/dz with the largest velocity on the cell's faces.
