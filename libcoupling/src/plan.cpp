@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupling/simulation.h"
+#include "fluid/elliptic_solver.h"
 #include "vesicle/mesh_control.h"
 
 namespace vesiflow::coupling {
@@ -70,6 +71,35 @@ std::string describe_bending(const Scene& scene) {
   return text;
 }
 
+// The solver of a problem, and why if it was left to choose.
+std::string describe_solver(const fluid::EllipticProblem& problem, SolverChoice choice) {
+  constexpr std::array names{"auto", "fft", "cholmod", "pcg"};
+  if (choice != SolverChoice::automatic) return names[static_cast<std::size_t>(choice)];
+  const fluid::SolverChoice chosen = fluid::choose_solver(problem, {});
+  return fmt::format("{} ({})", fluid::name(chosen.options), chosen.reason);
+}
+
+void describe_fluid(Plan& plan, const Scene& scene) {
+  const fluid::Grid grid{scene.domain.lower, scene.domain.upper, scene.domain.cells};
+  const bool steps_in_time = scene.fluid.inertia != fluid::Inertia::none;
+  plan.part(scene.fluid.inertia == fluid::Inertia::full, "convection", "skew-symmetric, extrapolated",
+            "fluid.inertia is not \"full\"");
+  plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler", "fluid.inertia = \"none\"");
+  plan.part(steps_in_time, "viscosity",
+            "implicit: " + describe_solver(fluid::EllipticProblem::velocity(grid, fluid::EllipticForm::laplacian, 1.0,
+                                                                            scene.fluid.viscosity_ratio),
+                                           scene.fluid.velocity_solver),
+            "fluid.inertia = \"none\"");
+  plan.part(false, "indicator, variable viscosity", "", "fluid.viscosity_ratio = 1");
+  plan.part(steps_in_time, "pressure",
+            "rotational correction: " +
+                describe_solver({grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0},
+                                scene.fluid.pressure_solver),
+            "fluid.inertia = \"none\"");
+  plan.part(!steps_in_time, "Stokes solve", "velocity and pressure together, to a tolerance",
+            "fluid.inertia is not \"none\"");
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.membrane.sigma0 > 0.0;
   const bool shear = scene.flow.type == FlowType::shear;
@@ -91,10 +121,7 @@ void describe_step(Plan& plan, const Scene& scene) {
             fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
             "membrane.volume is not \"penalty\"");
   plan.part(true, "spread, interpolate", "smoothed 4-point delta, in the bounding box of the markers", "");
-  plan.part(scene.fluid.convection, "convection", "skew-symmetric, extrapolated", "fluid.convection = false");
-  plan.part(true, "viscosity", "implicit, constant coefficient: three fast direct solves (fft)", "");
-  plan.part(false, "indicator, variable viscosity", "", "fluid.viscosity_ratio = 1");
-  plan.part(true, "pressure", "one fast direct solve (fft), rotational correction", "");
+  describe_fluid(plan, scene);
   plan.part(shear, "wall velocity", "steady shear, evaluated once", "flow.type = \"rest\"");
   plan.part(true, "mesh control",
             fmt::format("{}: normal velocity {} degrees, tangential {}",

@@ -135,13 +135,6 @@ class Reader final : public KeyVisitor {
     if (find(key) != nullptr) text(key, value.emplace());
   }
 
-  void flag(std::string_view key, bool& value) override {
-    if (const toml::node* node = find(key)) {
-      if (!node->is_boolean()) refuse(key, *node, "must be true or false");
-      value = node->as_boolean()->get();
-    }
-  }
-
   void number(std::string_view key, double& value, const Range& range) override {
     if (const toml::node* node = find(key)) value = checked(key, *node, *node, range);
   }

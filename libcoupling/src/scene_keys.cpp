@@ -65,7 +65,9 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
 
   v.number("fluid.reynolds_number", scene.fluid.reynolds_number, Range::positive());
   v.number("fluid.viscosity_ratio", scene.fluid.viscosity_ratio, Range::positive());
-  v.flag("fluid.convection", scene.fluid.convection);
+  choice_of(v, "fluid.inertia", scene.fluid.inertia, {"full", "unsteady", "none"});
+  choice_of(v, "fluid.velocity_solver", scene.fluid.velocity_solver, {"auto", "fft", "cholmod", "pcg"});
+  choice_of(v, "fluid.pressure_solver", scene.fluid.pressure_solver, {"auto", "fft", "cholmod", "pcg"});
 
   v.number("membrane.capillary_number", scene.membrane.capillary_number, Range::positive());
   v.number("membrane.sigma0", scene.membrane.sigma0, Range::from(0.0));

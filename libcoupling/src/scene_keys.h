@@ -38,7 +38,6 @@ class KeyVisitor {
   virtual ~KeyVisitor() = default;
   virtual void text(std::string_view key, std::string& value) = 0;
   virtual void optional_text(std::string_view key, std::optional<std::string>& value) = 0;
-  virtual void flag(std::string_view key, bool& value) = 0;
   virtual void number(std::string_view key, double& value, const Range& range) = 0;
   virtual void optional_number(std::string_view key, std::optional<double>& value, const Range& range) = 0;
   virtual void integer(std::string_view key, int& value, const Range& range) = 0;

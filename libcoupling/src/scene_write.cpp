@@ -41,7 +41,6 @@ class Lister : public KeyVisitor {
   void optional_text(std::string_view key, std::optional<std::string>& value) override {
     show(key, value ? toml_string(*value) : "", "text");
   }
-  void flag(std::string_view key, bool& value) override { show(key, value ? "true" : "false", "true, false"); }
   void number(std::string_view key, double& value, const Range& range) override {
     show(key, toml_number(value), range.describe());
   }

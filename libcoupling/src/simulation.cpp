@@ -92,11 +92,27 @@ fluid::Grid grid_of(const Scene& scene) {
   return {scene.domain.lower, scene.domain.upper, scene.domain.cells};
 }
 
+fluid::SolverOptions solver_options_of(SolverChoice choice) {
+  switch (choice) {
+    case SolverChoice::fft:
+      return fluid::FftOptions{};
+    case SolverChoice::cholmod:
+      return fluid::CholmodOptions{};
+    case SolverChoice::pcg:
+      return fluid::PcgOptions{};
+    case SolverChoice::automatic:
+      break;
+  }
+  return fluid::AutoOptions{};
+}
+
 fluid::FluidParameters fluid_parameters_of(const Scene& scene) {
   fluid::FluidParameters parameters;
   parameters.reynolds_number = scene.fluid.reynolds_number;
   parameters.viscosity = scene.fluid.viscosity_ratio;
-  parameters.convection = scene.fluid.convection;
+  parameters.inertia = scene.fluid.inertia;
+  parameters.velocity_solver = solver_options_of(scene.fluid.velocity_solver);
+  parameters.pressure_solver = solver_options_of(scene.fluid.pressure_solver);
   return parameters;
 }
 

@@ -12,8 +12,8 @@ enum class Direction { forward, backward };
 
 // Z_k = sum_j z_j exp(-+ 2 pi i j k / n) for the lanes / 2 complex lines of a block (lanes.h), by FFTW.
 //
-// Long lines whose length is a multiple of three are first split into three by a step of our own: what FFTW estimates
-// to be fast for them takes twice as long (192 and 384 points; bench/elliptic).
+// Long lines are first split by a step of our own, into three because what FFTW estimates to be fast for such lengths
+// takes twice as long (192 and 384 points), or into two whose transform fits the first-level cache.
 class BlockFft {
  public:
   BlockFft(int n, Direction direction);
@@ -24,12 +24,14 @@ class BlockFft {
   std::ptrdiff_t row(int k) const { return rows_[k]; }
 
  private:
-  void split(double* block) const;
+  void split_in_two(double* block) const;
+  void split_in_three(double* block) const;
 
-  int third_;  // of n, or n itself if it is not split
+  int parts_;
+  int length_;   // of a part
+  double sign_;  // of the exponent
   std::vector<std::ptrdiff_t> rows_;
-  std::vector<double> cosine_, sine_;  // of 2 pi j / n and 4 pi j / n, alternating
-  double root_ = 0.0;                  // sin(2 pi / 3), with the sign of the transform
+  std::vector<double> cosine_, sine_;  // of 2 pi j s / n, s = 1 .. parts - 1 fastest
   FftwPlan plan_;
 };
 

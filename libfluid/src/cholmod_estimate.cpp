@@ -11,7 +11,7 @@ namespace vesiflow::fluid {
 namespace {
 
 // Supernodal factorisation on one core (2.6 GHz, AVX2, OpenBLAS): the products, and the traffic of small supernodes.
-// Factorisations of 16^3 to 64^3 unknowns took 0.5 to 1.1 times what these give.
+// Factorisations of 16^3 to 64^3 unknowns took 0.5 to 1.4 times what these give.
 constexpr double flops_per_second = 1.5e10;
 constexpr double bytes_per_second = 2.5e8;
 

@@ -105,6 +105,17 @@ SolveReport EllipticSolver::solve(ConstBlocks rhs, Blocks x) {
   return report;
 }
 
+std::string name(const SolverOptions& options) {
+  return std::visit(
+      Overloaded{[](const FftOptions&) -> std::string { return "fft"; },
+                 [](const CholmodOptions&) -> std::string { return "cholmod"; },
+                 [](const PcgOptions& pcg) -> std::string {
+                   return std::holds_alternative<FftOptions>(pcg.preconditioner) ? "pcg+fft" : "pcg+cholmod";
+                 },
+                 [](const AutoOptions&) -> std::string { return "auto"; }},
+      options);
+}
+
 SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& options) {
   if (problem.form == EllipticForm::laplacian && problem.mu.is_constant()) {
     return {FftOptions{}, "constant coefficients, components by themselves: fast transforms are exact and fastest"};

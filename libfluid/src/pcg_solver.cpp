@@ -27,42 +27,6 @@ const PcgOptions& checked(const PcgOptions& options) {
   return options;
 }
 
-// visit(row of y, row of x, length) for all rows, in parallel over planes.
-template <class Visit>
-void for_each_row(ConstBlocks x, Blocks y, Visit&& visit) {
-  for (int block = 0; block < y.count(); ++block) {
-    const View& to = y[block];
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < to.extent[2]; ++k) {
-      for (int j = 0; j < to.extent[1]; ++j) visit(to.row(j, k), x[block].row(j, k), to.extent[0]);
-    }
-  }
-}
-
-void copy(ConstBlocks x, Blocks y) {
-  for_each_row(x, y, [](double* to, const double* from, int n) { std::copy_n(from, n, to); });
-}
-
-void set_zero(Blocks y) {
-  for_each_row(y, y, [](double* to, const double*, int n) { std::fill_n(to, n, 0.0); });
-}
-
-// y += factor x.
-void add(double factor, ConstBlocks x, Blocks y) {
-  for_each_row(x, y, [factor](double* to, const double* from, int n) {
-#pragma omp simd
-    for (int i = 0; i < n; ++i) to[i] += factor * from[i];
-  });
-}
-
-// y = x + factor y.
-void scale_and_add(double factor, ConstBlocks x, Blocks y) {
-  for_each_row(x, y, [factor](double* to, const double* from, int n) {
-#pragma omp simd
-    for (int i = 0; i < n; ++i) to[i] = from[i] + factor * to[i];
-  });
-}
-
 bool scaled(const EllipticProblem& problem, const PcgOptions& options) {
   return std::holds_alternative<FftOptions>(options.preconditioner) && !problem.mu.is_constant();
 }
@@ -111,11 +75,12 @@ void PcgSolver::do_update(const EllipticProblem& problem) {
     preconditioned_ = std::make_unique<GhostedBlocks>(problem);
     int planes = 0;
     for (int block = 0; block < problem.blocks(); ++block) planes = std::max(planes, problem.extent(block)[2]);
-    plane_sums_.resize(static_cast<std::size_t>(planes));
+    plane_sums_ = PlaneSums(planes);
+    stencil_ = std::make_unique<Stencil>(problem);
   } else {
     preconditioner_->update(reference);
+    stencil_->update(problem);
   }
-  stencil_ = std::make_unique<Stencil>(problem);
   if (scaled(problem, options_)) {
     set_scale(problem, reference.mu.value());
   } else {
@@ -165,7 +130,7 @@ void PcgSolver::precondition(ConstBlocks r, Blocks z) {
   multiply(scale_->unknowns(), z);
   preconditioner_->solve(z, z);
   multiply(scale_->unknowns(), z);
-  if (problem().has_nullspace()) remove_means(z);
+  if (problem().has_nullspace()) plane_sums_.remove_means(z);
 }
 
 // Conjugate gradients as in Saad, Iterative Methods for Sparse Linear Systems (2003), algorithm 9.1.
@@ -177,17 +142,17 @@ SolveReport PcgSolver::do_solve(ConstBlocks rhs, Blocks x) {
   const Blocks z = preconditioned_->unknowns();
   const bool from_zero = rhs[0].data == x[0].data;
   copy(rhs, r);
-  if (problem().has_nullspace()) report.removed_mean = remove_means(r);
-  const double scale = std::sqrt(dot(r, r));
+  if (problem().has_nullspace()) report.removed_mean = plane_sums_.remove_means(r);
+  const double scale = std::sqrt(plane_sums_.dot(r, r));
   if (from_zero) {
     set_zero(x);
   } else {
-    if (problem().has_nullspace()) remove_means(x);
+    if (problem().has_nullspace()) plane_sums_.remove_means(x);
     direction_->assign(x);
     stencil_->apply(*direction_, q);
     add(-1.0, q, r);
   }
-  double norm = std::sqrt(dot(r, r));
+  double norm = std::sqrt(plane_sums_.dot(r, r));
   if (!std::isfinite(scale) || !std::isfinite(norm)) {
     throw std::runtime_error(std::isfinite(scale) ? "elliptic solver: the x to start from is not finite"
                                                   : "elliptic solver: the right-hand side is not finite");
@@ -196,69 +161,23 @@ SolveReport PcgSolver::do_solve(ConstBlocks rhs, Blocks x) {
   double rz = 0.0;
   while (norm > target && report.iterations < options_.max_iterations) {
     precondition(r, z);
-    const double previous = std::exchange(rz, dot(r, z));
+    const double previous = std::exchange(rz, plane_sums_.dot(r, z));
     if (report.iterations == 0) {
       copy(z, p);
     } else {
       scale_and_add(rz / previous, z, p);
     }
     stencil_->apply(*direction_, q);
-    const double step = rz / dot(p, q);
+    const double step = rz / plane_sums_.dot(p, q);
     add(step, p, x);
     add(-step, q, r);
-    norm = std::sqrt(dot(r, r));
+    norm = std::sqrt(plane_sums_.dot(r, r));
     ++report.iterations;
     if (!std::isfinite(norm)) throw std::runtime_error("elliptic solver: 'pcg' broke down, a residual is not finite");
   }
   report.converged = norm <= target;
   report.residual = scale > 0.0 ? norm / scale : norm;
   return report;
-}
-
-// Subtracts from each block its mean, and returns these.
-std::array<double, 3> PcgSolver::remove_means(Blocks x) {
-  std::array<double, 3> means{};
-  for (int block = 0; block < x.count(); ++block) {
-    const View& view = x[block];
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < view.extent[2]; ++k) {
-      double sum = 0.0;
-      for (int j = 0; j < view.extent[1]; ++j) {
-        for (int i = 0; i < view.extent[0]; ++i) sum += view(i, j, k);
-      }
-      plane_sums_[k] = sum;
-    }
-    for (int k = 0; k < view.extent[2]; ++k) means[block] += plane_sums_[k];
-    means[block] /= static_cast<double>(problem().unknowns(block));
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < view.extent[2]; ++k) {
-      for (int j = 0; j < view.extent[1]; ++j) {
-        for (int i = 0; i < view.extent[0]; ++i) view(i, j, k) -= means[block];
-      }
-    }
-  }
-  return means;
-}
-
-// Plane sums are added in order: the same bits for every number of threads.
-double PcgSolver::dot(ConstBlocks a, ConstBlocks b) {
-  double total = 0.0;
-  for (int block = 0; block < a.count(); ++block) {
-    const auto n = a[block].extent;
-#pragma omp parallel for schedule(static)
-    for (int k = 0; k < n[2]; ++k) {
-      double sum = 0.0;
-      for (int j = 0; j < n[1]; ++j) {
-        const double* x = a[block].row(j, k);
-        const double* y = b[block].row(j, k);
-#pragma omp simd reduction(+ : sum)
-        for (int i = 0; i < n[0]; ++i) sum += x[i] * y[i];
-      }
-      plane_sums_[k] = sum;
-    }
-    for (int k = 0; k < n[2]; ++k) total += plane_sums_[k];
-  }
-  return total;
 }
 
 }  // namespace vesiflow::fluid

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <vector>
 
+#include "block_algebra.h"
 #include "fluid/elliptic_solver.h"
 #include "stencil.h"
 
@@ -25,8 +25,6 @@ class PcgSolver final : public EllipticSolver {
   EllipticProblem preconditioning_problem(const EllipticProblem& problem) const;
   void set_scale(const EllipticProblem& problem, double reference);
   void precondition(ConstBlocks r, Blocks z);
-  std::array<double, 3> remove_means(Blocks x);
-  double dot(ConstBlocks a, ConstBlocks b);
 
   PcgOptions options_;
   std::unique_ptr<EllipticSolver> preconditioner_;
@@ -34,7 +32,7 @@ class PcgSolver final : public EllipticSolver {
   std::unique_ptr<GhostedBlocks> scale_;      // of r before and z after "fft", if mu is a field; else null
   std::unique_ptr<GhostedBlocks> direction_;  // p
   std::unique_ptr<GhostedBlocks> product_, residual_, preconditioned_;  // A p, r, M^-1 r
-  std::vector<double> plane_sums_;
+  PlaneSums plane_sums_;
 };
 
 }  // namespace vesiflow::fluid

@@ -127,7 +127,7 @@ void GhostedBlocks::set_ghosts() {
   }
 }
 
-CoefficientView::CoefficientView(const Grid& grid, const Viscosity& mu) {
+void CoefficientView::set(const Grid& grid, const Viscosity& mu) {
   if (mu.is_constant()) {
     row_.assign(static_cast<std::size_t>(grid.cells[0]) + 2, mu.value());
     view_ = {row_.data() + 1, grid.cells, 0, 0};
@@ -138,9 +138,17 @@ CoefficientView::CoefficientView(const Grid& grid, const Viscosity& mu) {
 
 Stencil::Stencil(const EllipticProblem& problem) : problem_(problem), mu_(problem.grid, problem.mu) {}
 
+void Stencil::update(const EllipticProblem& problem) {
+  problem_ = problem;
+  mu_.set(problem.grid, problem.mu);
+}
+
 void Stencil::apply(GhostedBlocks& x, Blocks y) const {
   x.set_ghosts();
-  const ConstBlocks points = std::as_const(x).points();
+  apply_to_points(std::as_const(x).points(), y);
+}
+
+void Stencil::apply_to_points(ConstBlocks points, Blocks y) const {
   const Grid& grid = problem_.grid;
   for (int block = 0; block < problem_.blocks(); ++block) {
     const auto n = problem_.extent(block);
@@ -193,7 +201,7 @@ void add_variable_laplacian_row(const Grid& grid, Centring centring, ConstView x
 #pragma omp simd
   for (int i = begin; i < end; ++i) {
     out[i] += scale[0] * flux_difference(m[0], 1, i) + scale[1] * flux_difference(m[1], sy, i) +
-             scale[2] * flux_difference(m[2], sz, i);
+              scale[2] * flux_difference(m[2], sz, i);
   }
 }
 
@@ -260,6 +268,27 @@ void add_stress(const FaceVector& u, ConstView mu, double offset, FaceVector& f)
         if (!range.contains_row(j, k)) continue;
         add_stress_row(grid, velocity, mu, offset, 1.0, component, j, k, forces[component].row(j, k));
       }
+    }
+  }
+}
+
+// Beyond a wall half a cell away the ghost is minus the value here, so that the edge on the wall counts twice.
+void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out) {
+  const Centring centring = face_centrings[component];
+  const auto n = point_extent(grid, centring);
+  const int begin = first_unknown(grid, centring, 0);
+  const int end = begin + unknown_extent(grid, centring)[0];
+  std::fill(out + begin, out + end, 0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const MeanCoefficient mean(mu, centring, axis, j, k);
+    const double h = grid.spacing(axis);
+    const double scale = (axis == component ? 2.0 : 1.0) / (h * h);
+    const bool has_walls = axis != component && !grid.periodic[axis];
+    for (int i = begin; i < end; ++i) {
+      const int index = axis == 0 ? i : axis == 1 ? j : k;
+      const double above = has_walls && index == n[axis] - 1 ? 2.0 : 1.0;
+      const double below = has_walls && index == 0 ? 2.0 : 1.0;
+      out[i] += scale * (above * mean.above(i) + below * mean.below(i));
     }
   }
 }

@@ -39,7 +39,11 @@ class GhostedBlocks {
 // The coefficient as an array with ghosts, whether it is one or not.
 class CoefficientView {
  public:
-  CoefficientView(const Grid& grid, const Viscosity& mu);
+  CoefficientView(const Grid& grid, const Viscosity& mu) { set(grid, mu); }
+  CoefficientView(const CoefficientView&) = delete;
+  CoefficientView& operator=(const CoefficientView&) = delete;
+  // Allocates at most for the first constant.
+  void set(const Grid& grid, const Viscosity& mu);
   operator ConstView() const { return view_; }
 
  private:
@@ -50,9 +54,13 @@ class CoefficientView {
 class Stencil {
  public:
   explicit Stencil(const EllipticProblem& problem);
+  // Another alpha or mu.
+  void update(const EllipticProblem& problem);
 
   // y = A x. Sets the ghosts of x. Parallel over planes.
   void apply(GhostedBlocks& x, Blocks y) const;
+  // The same from all points of arrays whose ghosts have been set, by other conditions perhaps.
+  void apply_to_points(ConstBlocks points, Blocks y) const;
 
  private:
   void apply_row(ConstBlocks points, int block, int j, int k, double* out) const;
@@ -66,6 +74,10 @@ class Stencil {
 // Never inlined, for the same bits wherever it is called from.
 [[gnu::noinline]] void add_stress_row(const Grid& grid, const std::array<ConstView, 3>& u, ConstView mu, double offset,
                                       double factor, int component, int j, int k, double* out);
+
+// The diagonal of -div(mu (grad u + grad u^T)) with homogeneous walls, of a velocity component at its unknowns of row
+// (j, k), as above.
+void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out);
 
 // out += factor div(mu grad x) of one array on a centring, likewise.
 [[gnu::noinline]] void add_variable_laplacian_row(const Grid& grid, Centring centring, ConstView x, ConstView mu,

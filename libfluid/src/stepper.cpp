@@ -68,7 +68,6 @@ double max_abs(const FaceVector& u) {
   return largest;
 }
 
-
 }  // namespace
 
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference) {
@@ -82,8 +81,7 @@ EllipticProblem pressure_problem(const Grid& grid) {
   return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
 }
 
-Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary,
-                 bool steady_boundary)
+Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary, bool steady_boundary)
     : grid(grid_),
       parameters(checked(grid_, parameters_)),
       walls(grid_, std::move(boundary), steady_boundary),
@@ -96,6 +94,12 @@ Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, Boundary
       viscosity_(grid_, parameters.viscosity),
       chi_(grid_) {
   if (parameters.inertia == Inertia::full) convection_.emplace(grid);
+  if (parameters.inertia == Inertia::none) {
+    stokes_.emplace(grid, parameters.stokes);
+    stokes_->update(parameters.viscosity);
+    start();
+    return;
+  }
   const bool explicit_stress = parameters.viscous_treatment == ViscousTreatment::explicit_;
   if (variable_viscosity() && !explicit_stress) extrapolated_.emplace(grid);
   if (implicit_stress()) {
@@ -141,8 +145,8 @@ void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& functio
   start();
 }
 
-void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_,
-                                    const Field<Cell>& pressure_, const FluidClock& clock_) {
+void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, const Field<Cell>& pressure_,
+                      const FluidClock& clock_) {
   if (!(velocity_.grid() == grid && previous_.grid() == grid && pressure_.grid() == grid)) {
     throw std::invalid_argument("fluid: the state to restore is on another grid");
   }
@@ -170,21 +174,45 @@ void Stepper::step(double dt) {
   if (!(std::isfinite(dt) && dt > 0.0)) {
     throw std::invalid_argument(message("fluid: the time step is ", dt, "; it must be finite and > 0"));
   }
-  const StepCoefficients coefficients = step_coefficients(dt, clock.steps > 0 ? clock.time_step : 0.0);
-  const double a = parameters.reynolds_number * coefficients.a0 / dt;
   walls.evaluate(clock.time + dt);
   try {
-    update_velocity_solver(a);
-    form_right_hand_side(coefficients, dt);
-    if (variable_viscosity()) add_explicit_stress();
-    solve_momentum();
-    project(a);
+    if (stokes_) {
+      solve_stokes(dt);
+    } else {
+      advance_with_inertia(dt);
+    }
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(message("fluid: step ", clock.steps + 1, " to time ", clock.time + dt, " with time step ",
                                      dt, " failed: ", error.what()));
   }
   std::swap(velocity, previous);
   clock = {clock.time + dt, clock.time, dt, clock.steps + 1};
+}
+
+void Stepper::advance_with_inertia(double dt) {
+  const StepCoefficients coefficients = step_coefficients(dt, previous_step());
+  const double a = parameters.reynolds_number * coefficients.a0 / dt;
+  update_velocity_solver(a);
+  form_right_hand_side(coefficients, dt);
+  if (variable_viscosity()) add_explicit_stress();
+  solve_momentum();
+  project(a);
+}
+
+void Stepper::solve_stokes(double dt) {
+  if (variable_viscosity()) {
+    const PhaseTimer timer(timings.viscous);
+    stokes_->update(parameters.viscosity);
+  }
+  const PhaseTimer timer(timings.momentum);
+  const double r = step_coefficients(dt, previous_step()).b2;
+  extrapolate(velocity, previous, r, previous);
+  report.stokes = stokes_->solve(force, walls, previous, pressure);
+  if (!report.stokes.converged) {
+    throw std::runtime_error(message("the Stokes solver stopped after ", report.stokes.iterations,
+                                     " iterations at a relative residual of ", report.stokes.residual));
+  }
+  extend_to_ghosts(pressure);
 }
 
 void Stepper::update_velocity_solver(double a) {
@@ -250,6 +278,7 @@ void Stepper::project(double a) {
 }
 
 std::string Stepper::velocity_solver_name() const {
+  if (stokes_) return "stokes";
   return velocity_solver ? velocity_solver->name() : "none before the first step";
 }
 

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "fluid/navier_stokes.h"
-#include "step_passes.h"
 #include "stencil.h"
+#include "step_passes.h"
 
 namespace vesiflow::fluid {
 
@@ -38,9 +38,12 @@ class Stepper {
 
  private:
   bool variable_viscosity() const { return !parameters.viscosity.is_constant(); }
+  double previous_step() const { return clock.steps > 0 ? clock.time_step : 0.0; }
   bool implicit_stress() const {
     return variable_viscosity() && parameters.viscous_treatment == ViscousTreatment::implicit;
   }
+  void advance_with_inertia(double dt);
+  void solve_stokes(double dt);
   void start();
   void make_divergence_free();
   void update_velocity_solver(double a);
@@ -50,10 +53,11 @@ class Stepper {
   void project(double a);
 
   CoefficientView unit_, viscosity_;
-  double reference_viscosity_ = 0.0;  // mu, or its largest value
+  double reference_viscosity_ = 0.0;        // mu, or its largest value
   std::optional<FaceVector> convection_;    // N(previous velocity), if there is convection
   std::optional<FaceVector> extrapolated_;  // velocity at the new time, if a field of viscosity needs it
   std::optional<FaceVector> lift_;          // zero but for walls and ghosts, if the stress is implicit
+  std::optional<StokesSolver> stokes_;      // if there is no inertia
   Field<Cell> chi_;
 };
 

@@ -74,7 +74,7 @@ TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of("[domain]\nlower = [0, 0]\n" + sphere), {"domain.lower", "three numbers"});
   expect_parts(message_of("[time]\nstep = nan\n" + sphere), {"test.toml:2", "time.step", "> 0"});
   expect_parts(message_of("[flow]\ntype = \"sheer\"\n" + sphere), {"test.toml:2", "flow.type", "sheer", "rest, shear"});
-  expect_parts(message_of("[fluid]\nconvection = 1\n" + sphere), {"fluid.convection", "true or false"});
+  expect_parts(message_of("[fluid]\ninertia = \"some\"\n" + sphere), {"fluid.inertia", "full", "unsteady", "none"});
   expect_parts(message_of(sphere, {"mesh.latitudes=7"}), {"--set", "mesh.latitudes = 7", "in [8, 256]"});
 }
 

@@ -43,8 +43,9 @@ PcgOptions pcg_with(const decltype(PcgOptions::preconditioner)& preconditioner) 
   return options;
 }
 
-// 75 is what the fast solver guarantees for the ratio 20, without scaling and in the stress form, whose condition number
-// is then at most 2 * 20: sqrt(40) / 2 * log(2 / 1e-10). How many there are for smooth mu, see pcg_solver_test.cpp.
+// 75 is the bound of conjugate gradients from x = 0 for the ratio 20 if the fast solver is not scaled, in the stress form,
+// whose condition number is then at most 2 * 20: sqrt(40) / 2 * log(2 / 1e-10). How many there are for a smooth sphere, see
+// pcg_solver_test.cpp.
 const Backend backends[] = {
     {"fft", FftOptions{}, false, direct, 0},
     {"fftw_r2r", FftOptions{FftOptions::Transforms::fftw_r2r}, false, direct, 0},

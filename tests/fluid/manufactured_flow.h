@@ -25,7 +25,8 @@ struct ManufacturedFlow {
     Vector3 u;
     for (int i = 0; i < 3; ++i) {
       const auto [a, b, c] = cyclic(r, i);
-      u[i] = -k * (std::sin(2 * k * a) * std::sin(k * b) + 2 * std::cos(k * a) * std::cos(2 * k * c)) * std::cos(phase(t));
+      u[i] =
+          -k * (std::sin(2 * k * a) * std::sin(k * b) + 2 * std::cos(k * a) * std::cos(2 * k * c)) * std::cos(phase(t));
     }
     return u;
   }

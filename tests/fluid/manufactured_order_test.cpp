@@ -82,8 +82,8 @@ void expect_second_order_in_space(double ratio, ViscousTreatment treatment, cons
   EXPECT_NEAR(velocity_order, 2.0, 0.1) << "Re = " << c.reynolds_number;
   EXPECT_GT(pressure_order, 1.5) << "Re = " << c.reynolds_number;
   // For those who read the log: the orders themselves.
-  std::printf("Re %g, ratio %g: velocity %.2e %.2e order %.3f, pressure %.2e %.2e order %.3f\n", c.reynolds_number, ratio,
-              first.velocity_l2, second.velocity_l2, velocity_order, first.pressure_l2, second.pressure_l2,
+  std::printf("Re %g, ratio %g: velocity %.2e %.2e order %.3f, pressure %.2e %.2e order %.3f\n", c.reynolds_number,
+              ratio, first.velocity_l2, second.velocity_l2, velocity_order, first.pressure_l2, second.pressure_l2,
               pressure_order);
 }
 

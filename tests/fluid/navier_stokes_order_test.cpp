@@ -194,18 +194,21 @@ TEST(NavierStokesOrder, IsTwoInTimeWithChangingSteps) {
   EXPECT_NEAR(order_in_time(run_with, 64), 2.0, 0.1);
 }
 
+// At Re = 10. At Re = 1 the orders with these steps are 0.86, 2.15 and 1.82, with half of them 1.07, 1.90 and 1.90; at
+// Re = 1e-3 1.20, 1.93 and 1.56, then 1.67, 1.98 and 1.92.
 TEST(NavierStokesOrder, InTimeWithVariableViscosityDependsOnItsTreatment) {
   FluidParameters parameters;
+  parameters.reynolds_number = 10.0;
   parameters.viscosity = sample_viscosity(small_grid, [](const Vector3& r) {
     return 1.0 + 9.5 * (1.0 - std::tanh(4.0 * (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]) - 1.0));
   });
-  for (const double re : {1e-3, 1.0, 10.0})
-  for (const auto t : {ViscousTreatment::explicit_, ViscousTreatment::extrapolated, ViscousTreatment::implicit}) {
-    parameters.viscous_treatment = t;
-    parameters.reynolds_number = re;
-    const auto run_with = [&](int steps) { return run_from_rest(parameters, {1.0 / steps}, steps); };
-    std::printf("treatment %d Re %g order %.3f %.3f\n", static_cast<int>(t), re, order_in_time(run_with, 64), order_in_time(run_with, 128));
-  }
+  const auto order = [&](ViscousTreatment treatment, int steps) {
+    parameters.viscous_treatment = treatment;
+    return order_in_time([&](int n) { return run_from_rest(parameters, {1.0 / n}, n); }, steps);
+  };
+  EXPECT_NEAR(order(ViscousTreatment::explicit_, 64), 0.8, 0.15);  // 0.74, and 0.87 with half the steps: to 1
+  EXPECT_NEAR(order(ViscousTreatment::extrapolated, 64), 2.0, 0.1);
+  EXPECT_NEAR(order(ViscousTreatment::implicit, 32), 2.0, 0.1);
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "fluid/boundary.h"
+#include "fluid/viscosity.h"
 #include "test_fields.h"
+#include "test_problems.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -11,11 +15,31 @@ namespace {
 const std::array<Grid, 3> grids{Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), Grid({0, -1, 0}, {1, 2, 5}, {7, 5, 11}),
                                 Grid({-3, 0, 0}, {1, 1, 1}, {4, 13, 6})};
 
-TEST(Operators, DivergenceIsMinusTheAdjointOfTheGradient) {
+// Between walls, periodic, and every mixture.
+std::vector<Grid> grids_with_all_boundaries() {
+  std::vector<Grid> all;
   for (const Grid& grid : grids) {
+    for (unsigned mask = 0; mask < 8; ++mask) all.push_back(test::with_periodic_axes(grid, mask));
+  }
+  return all;
+}
+
+// Random, zero on walls, ghosts set.
+FaceVector random_flow(const Grid& grid, unsigned seed) {
+  FaceVector u = test::random_velocity(grid, seed);
+  const WallVelocity walls(
+      grid, [](const Vector3&, double) { return Vector3{}; }, true);
+  walls.set_normal_faces(u);
+  walls.fill_ghosts(u);
+  return u;
+}
+
+TEST(Operators, DivergenceIsMinusTheAdjointOfTheGradient) {
+  for (const Grid& grid : grids_with_all_boundaries()) {
     Field<Cell> p(grid);
     test::fill_random(p.points(), 1);
-    const FaceVector u = test::random_velocity(grid, 2);
+    extend_to_ghosts(p);
+    const FaceVector u = random_flow(grid, 2);
     FaceVector g(grid);
     Field<Cell> d(grid);
     gradient(p, g);
@@ -27,11 +51,8 @@ TEST(Operators, DivergenceIsMinusTheAdjointOfTheGradient) {
 
 // <v, N(u)> vanishes for v = u: convection does no work, whether u is divergence-free or not.
 TEST(Operators, ConvectionDoesNoWorkBetweenZeroWalls) {
-  for (const Grid& grid : grids) {
-    FaceVector u = test::random_velocity(grid, 5);
-    const WallVelocity walls(
-        grid, [](const Vector3&, double) { return Vector3{}; }, true);
-    walls.fill_ghosts(u);
+  for (const Grid& grid : grids_with_all_boundaries()) {
+    const FaceVector u = random_flow(grid, 5);
     FaceVector n(grid);
     convection(u, n);
     const double scale = std::sqrt(test::dot(n, n) * test::dot(u, u));

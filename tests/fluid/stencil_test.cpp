@@ -59,7 +59,7 @@ TEST(EllipticOperator, ConstantsAreTheNullspaceWithoutDirichletWalls) {
 // -div(mu grad u + ...) at one row, with u given everywhere, on walls and beyond too; component by component.
 double stress(const Grid& grid, const FaceVector& u, const Viscosity& mu, int component, int i, int j, int k) {
   std::array<double, 16> out{};
-  stress_row(grid, u.points(), CoefficientView(grid, mu), 0.0, component, j, k, out.data());
+  add_stress_row(grid, u.points(), CoefficientView(grid, mu), 0.0, 1.0, component, j, k, out.data());
   return out[i];
 }
 

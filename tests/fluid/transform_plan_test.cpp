@@ -88,7 +88,7 @@ TEST_P(Transform, OfLinesAgreesWithTheDefinition) {
 
 TEST_P(Transform, IsAccurateForLongLines) {
   const auto [basis, direction] = GetParam();
-  for (const int n : {191, 192, 383, 384, 500, 509, 511, 512})
+  for (const int n : {192, 254, 256, 384, 500, 509, 512})
     EXPECT_LT(line_error(n, basis, direction), 5e-15) << "length " << n;
 }
 

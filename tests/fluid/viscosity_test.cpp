@@ -56,7 +56,8 @@ TEST(Viscosity, RefusesValuesThatAreNotPositiveAndNamesThePlace) {
     (*mu)(4, 5, 6) = bad;
     EXPECT_THAT([&] { Viscosity(mu).checked_range(); },
                 ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("cell (4, 5, 6) is "), HasSubstr("> 0"))));
-    EXPECT_THAT([&] { Viscosity(bad).checked_range(); }, ThrowsMessage<std::invalid_argument>(HasSubstr("mu is ")));
+    EXPECT_THAT([&] { Viscosity(bad).checked_range(); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("viscosity is ")));
   }
   EXPECT_THAT([] { Viscosity(std::shared_ptr<const Field<Cell>>()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("null")));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fluid/navier_stokes.h"
 #include "vesicle/coefficients.h"
 #include "vesicle/laplace_beltrami.h"
 #include "vesicle/membrane.h"
@@ -39,6 +40,9 @@ struct VesicleScene {
   double rotation_deg = 0.0;  ///< turns the shape, whose symmetry axis is z, about rotation_axis
 };
 
+/// Linear solver of the fluid by name; "auto" takes what is fastest for the problem (fluid/elliptic_solver.h).
+enum class SolverChoice { automatic, fft, cholmod, pcg };
+
 /// Everything a scene file can say, with its defaults. docs/scene.md documents each key; names there and here are
 /// the same. Dimensionless groups are the paper's (section 3.1): Re = rho r^2/(mu_o t_c), Ca = mu_o r^3/(c_b t_c).
 struct Scene {
@@ -59,7 +63,9 @@ struct Scene {
   struct Fluid {
     double reynolds_number = 1e-3;
     double viscosity_ratio = 1.0;
-    bool convection = true;
+    fluid::Inertia inertia = fluid::Inertia::full;
+    SolverChoice velocity_solver = SolverChoice::automatic;
+    SolverChoice pressure_solver = SolverChoice::automatic;
   } fluid;
   struct Membrane {
     double capillary_number = 2.5;

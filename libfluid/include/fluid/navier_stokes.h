@@ -12,6 +12,7 @@
 #include "fluid/elliptic_solver.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
+#include "fluid/stokes.h"
 #include "fluid/viscosity.h"
 
 namespace vesiflow::fluid {
@@ -38,6 +39,7 @@ struct FluidParameters {
   Inertia inertia = Inertia::full;
   SolverOptions pressure_solver = FftOptions{};
   SolverOptions velocity_solver = AutoOptions{};
+  StokesOptions stokes;  // of inertia = none, which uses neither of the two solvers above in its steps
 };
 
 // The time levels of a state: velocity() is at time, previous_velocity() at previous_time.
@@ -59,6 +61,7 @@ struct FluidTimings {
 // The solves of the last step.
 struct FluidReport {
   SolveReport momentum, pressure;
+  StokesReport stokes;  // if inertia = none, instead of the two
 };
 
 // Solves   Re [du/dt + (u.grad)u] = -grad p + div(mu (grad u + grad u^T)) + f,   div u = 0,
@@ -78,6 +81,9 @@ struct FluidReport {
 // p <- p - mu D L^-1 (...) on the Stokes problem. As (div v)^2 <= 3 |grad v + grad v^T|^2 / 4 in every cell, the
 // eigenvalues of mu D L^-1 G are at most 3/2, and it converges whatever the ratio of viscosities; with 2 mu, which is exact
 // where mu is constant, they reach 3, and it does not (seen to blow up at ratio 20, Re = 1e-3).
+//
+// With inertia = none a step solves -div(mu (grad u + grad u^T)) + grad p = f, div u = 0 with the force given and the walls
+// at the new time (StokesSolver, from the extrapolated velocity and the last pressure).
 //
 // Second order in space and, for u, in time. div u = 0 to round-off. Same bits for every number of threads.
 class NavierStokes {
