@@ -24,7 +24,8 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   arguments.reynolds_number = albensoeder_kuhlmann::reynolds_number;
   arguments.steady.tolerance = 1e-6;
   CLI::App command_line(
-      "Steady flow in a cube with a moving lid: velocities on the centrelines, beside published ones at Reynolds number "
+      "Steady flow in a cube with a moving lid: velocities on the centrelines, beside published ones at Reynolds "
+      "number "
       "1000.",
       "lid_cavity");
   command_line

@@ -42,8 +42,8 @@ Middle middle(const Grid& grid, Centring centring, int axis) {
 }
 
 // The value at point `index` of the line.
-double at_middle(const ConstView& field, const std::array<int, 2>& across, const std::array<Middle, 2>& middles, int axis,
-                 int index) {
+double at_middle(const ConstView& field, const std::array<int, 2>& across, const std::array<Middle, 2>& middles,
+                 int axis, int index) {
   double value = 0;
   for (int a = 0; a < stencil; ++a)
     for (int b = 0; b < stencil; ++b) {
@@ -110,8 +110,7 @@ Profile centreline(const FaceVector& velocity, int component, int axis) {
     profile.values.push_back(found);
   };
   add(grid.lower[axis], 0.5 * (value(-1) + value(0)));
-  for (int index = 0; index < points; ++index)
-    add(grid.lower[axis] + (index + 0.5) * grid.spacing(axis), value(index));
+  for (int index = 0; index < points; ++index) add(grid.lower[axis] + (index + 0.5) * grid.spacing(axis), value(index));
   add(grid.upper[axis], 0.5 * (value(points - 1) + value(points)));
   return profile;
 }

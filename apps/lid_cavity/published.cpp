@@ -38,8 +38,7 @@ constexpr std::array<PublishedPoint, 15> table_6{{{-0.4375, -0.21738},
                                                   {0.4688, 0.18864}}};
 
 constexpr auto transformed(std::array<PublishedPoint, 15> table, double position_sign, double value_sign) {
-  for (PublishedPoint& point : table)
-    point = {0.5 + position_sign * point.position, value_sign * point.value};
+  for (PublishedPoint& point : table) point = {0.5 + position_sign * point.position, value_sign * point.value};
   return table;
 }
 

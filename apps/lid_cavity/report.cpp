@@ -39,8 +39,9 @@ Comparison compare(const std::vector<CavityFlow>& flows, bool u) {
 }
 
 std::string extrema_table(const std::vector<CavityFlow>& flows) {
-  std::string text = fmt::format("{:>9} {:>7} {:>8} {:>9} {:>8}  {:>9} {:>7}  {:>9} {:>7}  {:>9} {:>7}\n", "cells",
-                                 "steps", "time", "change", "seconds", "min u", "at y", "max v", "at x", "min v", "at x");
+  std::string text =
+      fmt::format("{:>9} {:>7} {:>8} {:>9} {:>8}  {:>9} {:>7}  {:>9} {:>7}  {:>9} {:>7}\n", "cells", "steps", "time",
+                  "change", "seconds", "min u", "at y", "max v", "at x", "min v", "at x");
   const auto extrema = [](const Extremum& a, const Extremum& b, const Extremum& c) {
     return fmt::format("  {:>9.5f} {:>7.4f}  {:>9.5f} {:>7.4f}  {:>9.5f} {:>7.4f}\n", a.value, a.position, b.value,
                        b.position, c.value, c.position);
@@ -146,9 +147,10 @@ nlohmann::ordered_json to_json(const Comparison& line) {
 
 std::string table(const std::vector<CavityFlow>& flows, double reynolds_number) {
   std::string text =
-      fmt::format("Cube [0, 1]^3, wall y = 1 moving with velocity 1 along x, Reynolds number {:g}. u on (1/2, y, 1/2), v on "
-                  "(x, 1/2, 1/2).\n\n",
-                  reynolds_number) +
+      fmt::format(
+          "Cube [0, 1]^3, wall y = 1 moving with velocity 1 along x, Reynolds number {:g}. u on (1/2, y, 1/2), v on "
+          "(x, 1/2, 1/2).\n\n",
+          reynolds_number) +
       extrema_table(flows);
   if (reynolds_number != albensoeder_kuhlmann::reynolds_number) return text;
   const Comparison u = compare(flows, true), v = compare(flows, false);
