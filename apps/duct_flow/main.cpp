@@ -79,6 +79,9 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   for (const int count : cells)
     require(count >= fewest_cells && count <= most_cells, "--cells", count,
             fmt::format("from {} to {}", fewest_cells, most_cells));
+  for (const int count : cells)
+    require(count << arguments.refinements <= most_cells, "--refine", arguments.refinements,
+            fmt::format("small enough for at most {} cells along an axis", most_cells));
   arguments.cells = cells.size() == 3 ? std::array{cells[0], cells[1], cells[2]} : cells_of(duct, cells[0]);
   return true;
 }

@@ -12,8 +12,8 @@ namespace cavity {
 
 /// The flow in the cube [0, 1]^3 whose wall y = 1 moves with velocity 1 along x, all other walls at rest, on cells^3 cells.
 ///
-/// The lid's velocity jumps at its edges. It is sampled as it is: 1 at all points of the lid, and the wall normal to x or z
-/// at rest at all of its points, none of which lies on an edge.
+/// The lid's velocity jumps at its four edges. It is sampled as it is, without smoothing: 1 at every point of the lid; the
+/// walls beside it are at rest at all of their points, the nearest of which are half a cell or a cell below.
 struct CavityFlow {
   int cells;
   SteadyRun run;

@@ -32,6 +32,7 @@ refused 2 '--length 0: must be finite and > 0' --length 0
 refused 2 '--cells 3: must be from 4 to 1024' --cells 3
 refused 2 '--cells: must be one number or three' --cells 8 8
 refused 2 '--refine 9: must be from 0 to 6' --refine 9
+refused 2 '--refine 3: must be small enough for at most 1024 cells' --cells 200 --refine 3
 refused 2 '--reynolds-number 0: must be finite and > 0' --reynolds-number 0
 refused 2 '--time-step nan: must be finite and > 0' --time-step nan
 refused 2 '--courant-number 2: must be in \(0, 1\]' --courant-number 2
