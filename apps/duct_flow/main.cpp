@@ -1,0 +1,128 @@
+// Flow in a rectangular duct against its exact series, by libfluid alone.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "output_files.h"
+#include "program.h"
+#include "report.h"
+#include "steady_options.h"
+
+namespace {
+
+constexpr int fewest_cells = 4, most_cells = 1024, most_refinements = 6;
+
+struct Arguments : SteadyArguments {
+  Duct duct;
+  DuctMethod method = DuctMethod::unsteady;
+  std::array<int, 3> cells{};
+  int refinements = 0;
+  std::string output;
+};
+
+// Cubes as nearly as can be, with `across` cells along y.
+std::array<int, 3> cells_of(const Duct& duct, int across) {
+  const auto along = [&](double length) {
+    return std::max(fewest_cells, static_cast<int>(std::lround(across * length / (2 * duct.d))));
+  };
+  return {duct.ends == DuctEnds::periodic ? fewest_cells : along(duct.length), across, along(2 * duct.e)};
+}
+
+bool parse_command_line(int argc, char** argv, Arguments& arguments) {
+  CLI::App command_line(
+      "Pressure-driven flow in a rectangular duct, from rest to the steady state, against the exact series (Eq. 35 of "
+      "the "
+      "paper).",
+      "duct_flow");
+  Duct& duct = arguments.duct;
+  std::vector<double> half_widths = {3, 3};
+  std::vector<int> cells = {32};
+  std::string ends = "periodic";
+  double length = 0;
+  bool stokes = false;
+  command_line
+      .add_option("--ends", ends, "periodic (driven by a body force) or walls (velocity of the series on both ends)")
+      ->capture_default_str();
+  command_line.add_option("--half-widths", half_widths, "along y and z")->expected(2)->default_str("3 3");
+  CLI::Option* const given_length = command_line.add_option("--length", length, "of the duct (default: its width)");
+  command_line
+      .add_option("--cells", cells, "across the width, the others by it (4 along a periodic duct); or along x, y and z")
+      ->expected(1, 3)
+      ->default_str("32");
+  command_line
+      .add_option("--refine", arguments.refinements, "so many grids more, each with twice the cells of the last")
+      ->capture_default_str();
+  command_line.add_flag("--stokes", stokes, "solve the Stokes problem at once, without inertia and time");
+  declare(command_line, arguments,
+          "of the velocity per diffusion time, largest velocity 1 (--stokes: relative residual)");
+  command_line.add_option("--output", arguments.output,
+                          "folder for the results as JSON and the flow in a cross-section");
+  if (!parse(command_line, argc, argv, arguments)) return false;
+
+  if (ends != "periodic" && ends != "walls")
+    throw CommandLineError(fmt::format("--ends {}: must be one of periodic, walls", ends));
+  duct.ends = ends == "walls" ? DuctEnds::walls : DuctEnds::periodic;
+  for (const double width : half_widths)
+    require(std::isfinite(width) && width > 0, "--half-widths", width, "finite and > 0");
+  duct.d = half_widths[0];
+  duct.e = half_widths[1];
+  duct.length = given_length->count() > 0 ? length : 2 * duct.d;
+  require(std::isfinite(duct.length) && duct.length > 0, "--length", duct.length, "finite and > 0");
+  duct.reynolds_number = arguments.reynolds_number;
+  arguments.method = stokes ? DuctMethod::stokes : DuctMethod::unsteady;
+  require(arguments.refinements >= 0 && arguments.refinements <= most_refinements, "--refine", arguments.refinements,
+          fmt::format("from 0 to {}", most_refinements));
+  if (cells.size() == 2) throw CommandLineError("--cells: must be one number or three");
+  for (const int count : cells)
+    require(count >= fewest_cells && count <= most_cells, "--cells", count,
+            fmt::format("from {} to {}", fewest_cells, most_cells));
+  for (const int count : cells)
+    require(count << arguments.refinements <= most_cells, "--refine", arguments.refinements,
+            fmt::format("small enough for at most {} cells along an axis", most_cells));
+  arguments.cells = cells.size() == 3 ? std::array{cells[0], cells[1], cells[2]} : cells_of(duct, cells[0]);
+  return true;
+}
+
+std::array<int, 3> refined(const Arguments& arguments, int times) {
+  std::array<int, 3> cells = arguments.cells;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis > 0 || arguments.duct.ends == DuctEnds::walls)
+      cells[axis] <<= times;  // a periodic flow is the same at all x
+  return cells;
+}
+
+ExitCode run(int argc, char** argv) {
+  Arguments arguments;
+  if (!parse_command_line(argc, argv, arguments)) return success;
+  const std::filesystem::path folder = arguments.output;
+  if (!folder.empty()) make_folder(folder);
+
+  std::vector<DuctFlow> flows;
+  std::string json;
+  bool all_steady = true;
+  for (int times = 0; times <= arguments.refinements; ++times) {
+    const std::array<int, 3> cells = refined(arguments, times);
+    const std::string name = fmt::format("{}x{}x{}", cells[0], cells[1], cells[2]);
+    if (!arguments.quiet) fmt::print(stderr, "{} cells\n", name);
+    flows.push_back(compute_duct(arguments.duct, cells, arguments.method, arguments.steady));
+    const SteadyRun& last = flows.back().run;
+    if (!last.steady)
+      fmt::print(stderr, "{} cells: not steady at time {:g}: change {:.1e}\n", name, last.time, last.change);
+    all_steady = all_steady && last.steady;
+    json = to_json(arguments.duct, arguments.method, flows).dump(1) + "\n";
+    if (folder.empty()) continue;
+    write_text(folder / fmt::format("cross_section_{}.csv", name), cross_section(arguments.duct, flows.back()));
+    write_text(folder / "duct_flow.json", json);
+  }
+  fmt::print("{}", arguments.json ? json : table(arguments.duct, arguments.method, flows));
+  return all_steady ? success : not_steady;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program([&] { return run(argc, argv); });
+}

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+/// Exit codes of the programs that take a flow to its steady state.
+enum ExitCode { success = 0, internal_error = 1, bad_input = 2, not_steady = 3, file_error = 4 };
+
+/// What the command line asks for cannot be done. The message names the option, the value and what is allowed.
+class CommandLineError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file or folder could not be written. The message names it.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs the body; what it throws becomes a line on standard error and an exit code.
+int run_program(const std::function<ExitCode()>& body);
