@@ -102,18 +102,16 @@ nlohmann::ordered_json run(const Options& options, NavierStokes& flow) {
     if (n == 0) first_iterations = iterations(flow);
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  return {
-      {"cells", options.cells},
-      {"viscosity_ratio", options.ratio},
-      {"velocity_solver", flow.velocity_solver_name()},
-      {"pressure_solver", flow.pressure_solver_name()},
-      {"steps", flow.steps()},
-      {"time", flow.time()},
-      {"iterations_of_first_step", first_iterations},
-      {"iterations_of_last_step", iterations(flow)},
-      {"seconds_per_step", seconds.count() / steps},
-      {"divergence", max_divergence(flow.velocity())},
-      {"memory_estimate_mb", static_cast<double>(NavierStokes::estimate_memory(flow.grid(), flow.parameters())) / 1e6}};
+  return {{"cells", options.cells},
+          {"viscosity_ratio", options.ratio},
+          {"velocity_solver", flow.velocity_solver_name()},
+          {"pressure_solver", flow.pressure_solver_name()},
+          {"steps", flow.steps()},
+          {"time", flow.time()},
+          {"iterations_of_first_step", first_iterations},
+          {"iterations_of_last_step", iterations(flow)},
+          {"seconds_per_step", seconds.count() / steps},
+          {"divergence", max_divergence(flow.velocity())}};
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
