@@ -36,7 +36,7 @@ for package in HDF5 HDF5C SUNDIALS spdlog fmt; do
   no_optional+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 consume vesicle curvatures "${no_optional[@]}"
-consume fluid lid_driven_cavity "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
+consume fluid channel "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
 consume coupling extension
 
 # A component that is not there is refused by name.

@@ -39,7 +39,7 @@ struct FluidParameters {
   Inertia inertia = Inertia::full;
   SolverOptions pressure_solver = FftOptions{};
   SolverOptions velocity_solver = AutoOptions{};
-  StokesOptions stokes;  // of inertia = none, which uses neither of the two solvers above in its steps
+  StokesOptions stokes = {};  // of inertia = none, which uses neither of the two solvers above in its steps
 };
 
 // The time levels of a state: velocity() is at time, previous_velocity() at previous_time.
