@@ -57,7 +57,6 @@ class Study {
   explicit Study(const Setting& s)
       : setting_(s),
         grid_({-3, -3, -3}, {3, 3, 3}, {s.cells, s.cells, s.cells}),
-        blob_{s.ratio, grid_.spacing(0)},
         dt_(1.0 / (3.0 * s.cells)),
         alpha_(1.5 * s.reynolds_number / dt_),
         mu_(std::make_shared<Field<Cell>>(grid_)),
@@ -101,7 +100,7 @@ class Study {
     std::unique_ptr<EllipticSolver> solver;
     for (int k = 0; k < setting_.steps; ++k) {
       const double t = k * dt_;
-      set_viscosity(blob_, t, *mu_);
+      set_viscosity(ViscousBlob(setting_.ratio, grid_.spacing(0), t), *mu_);
       set_right_hand_side(t);
       updates_.push_back(cpu_seconds([&] {
         if (solver) {
@@ -124,7 +123,7 @@ class Study {
 
   // The force of the blob, and inertia: a times a smooth flow.
   void set_right_hand_side(double t) {
-    set_force(blob_, t, 1.0, rhs_);
+    set_force(ViscousBlob(setting_.ratio, grid_.spacing(0), t), 1.0, rhs_);
     const double a = alpha_;
     const auto add = [&](auto& field, auto function) {
       for (int k = 0; k < field.extent(2); ++k) {
@@ -158,7 +157,6 @@ class Study {
 
   Setting setting_;
   Grid grid_;
-  ViscousBlob blob_;
   double dt_, alpha_;
   std::shared_ptr<Field<Cell>> mu_;
   FaceVector rhs_, now_, before_, guess_;

@@ -75,15 +75,16 @@ double max_abs(const FaceVector& u) {
 
 Run run(const Setting& s, const std::string& treatment, int steps) {
   const Grid grid({-3, -3, -3}, {3, 3, 3}, {s.cells, s.cells, s.cells});
-  const ViscousBlob blob{s.ratio, grid.spacing(0)};
-  const auto mu = sample_viscosity(grid, [&](const Vector3& r) { return blob.viscosity(r, 0.0); });
+  const auto mu = std::make_shared<Field<Cell>>(grid);
+  set_viscosity(ViscousBlob(s.ratio, grid.spacing(0), 0.0), *mu);
   const auto walls = [](const Vector3& r, double t) { return Vector3{r[2] * strength(t), 0.0, 0.0}; };
   NavierStokes fluid(grid, parameters_of(treatment, s.reynolds_number, mu), walls, false);
   Run result;
   for (int k = 1; k <= steps; ++k) {
     const double t = static_cast<double>(k) / steps;
-    set_viscosity(blob, t, *mu);
-    set_force(blob, t, 5.0 * strength(t), fluid.force());
+    const ViscousBlob blob(s.ratio, grid.spacing(0), t);
+    set_viscosity(blob, *mu);
+    set_force(blob, 5.0 * strength(t), fluid.force());
     try {
       result.cpu_seconds += 1e-3 * timed([&] { fluid.step(1.0 / steps); }).cpu;
     } catch (const std::runtime_error&) {
@@ -104,7 +105,7 @@ struct Errors {
 
 Errors errors(const Setting& s, const FaceVector& u, const FaceVector& exact) {
   const Grid& grid = u.grid();
-  const ViscousBlob blob{s.ratio, grid.spacing(0)};
+  const ViscousBlob blob(s.ratio, grid.spacing(0), 1.0);
   double difference = 0.0, size = 0.0, near_difference = 0.0, near_size = 0.0;
   for (int c = 0; c < 3; ++c) {
     const ConstView x = u.points()[c];
@@ -116,7 +117,7 @@ Errors errors(const Setting& s, const FaceVector& u, const FaceVector& exact) {
           difference += d * d;
           size += y(i, j, k) * y(i, j, k);
           const Vector3 r = point_position(grid, face_centrings[c], i, j, k);
-          if (std::abs(blob.distance(r, 1.0)) > 2.0 * grid.spacing(0)) continue;
+          if (std::abs(blob.distance(r)) > 2.0 * grid.spacing(0)) continue;
           near_difference += d * d;
           near_size += y(i, j, k) * y(i, j, k);
         }
