@@ -72,7 +72,9 @@ class Flow {
       : ratio_(c.ratio),
         mu_(std::make_shared<Field<Cell>>(grid)),
         dt_(2.0 / (3.0 * grid.cells[0])),
-        fluid_(grid, parameters(c), [](const Vector3& r, double) { return Vector3{r[2], 0.0, 0.0}; }) {
+        fluid_(grid, parameters(c), [](const Vector3& r, double) {
+          return Vector3{r[2], 0.0, 0.0};
+        }) {
     fluid_.set_velocity([](const Vector3& r) { return Vector3{r[2], 0.0, 0.0}; });
     set_force(blob(), 1.0, fluid_.force());
     for (int k = 0; k < 3; ++k) fluid_.step(dt_);
@@ -191,8 +193,10 @@ int main(int argc, char** argv) {
     std::printf("[");
   } else {
     std::printf(
-        "CPU milliseconds with one thread, medians: a step, its phases (their shares of its wall time), the four pairs of\n"
-        "transforms; medians of the ratios step / transforms by CPU and by wall time; solver iterations; allocations in two steps.\n"
+        "CPU milliseconds with one thread, medians: a step, its phases (their shares of its wall time), the four pairs "
+        "of\n"
+        "transforms; medians of the ratios step / transforms by CPU and by wall time; solver iterations; allocations "
+        "in two steps.\n"
         "%5s  %-23s %9s %10s %9s %9s %10s %10s %7s %7s %10s %11s\n",
         "cells", "", "step", "convection", "viscous", "momentum", "projection", "transforms", "ratio", "wall",
         "iterations", "allocations");

@@ -68,10 +68,11 @@ class Study {
   // One JSON object.
   void run() {
     const double memory = static_cast<double>(estimate_solver_memory(problem(), options_of(setting_)));
-    std::printf(" {\"cells\": %d, \"ratio\": %g, \"reynolds_number\": %g, \"form\": \"%s\", \"solver\": \"%s\", "
-                "\"tolerance\": %g, \"memory_estimate\": %.3g, ",
-                setting_.cells, setting_.ratio, setting_.reynolds_number, setting_.stress ? "stress" : "scalar",
-                setting_.solver.c_str(), setting_.tolerance, memory);
+    std::printf(
+        " {\"cells\": %d, \"ratio\": %g, \"reynolds_number\": %g, \"form\": \"%s\", \"solver\": \"%s\", "
+        "\"tolerance\": %g, \"memory_estimate\": %.3g, ",
+        setting_.cells, setting_.ratio, setting_.reynolds_number, setting_.stress ? "stress" : "scalar",
+        setting_.solver.c_str(), setting_.tolerance, memory);
     try {
       take_steps();
       print("\"update_seconds\": [", updates_, "%.5f");

@@ -91,7 +91,8 @@ Run run(const Setting& s, const std::string& treatment, int steps) {
       return result;
     }
     const FluidReport& report = fluid.report();
-    result.iterations += (treatment == "stokes" ? report.stokes.iterations : report.momentum.iterations) / (1.0 * steps);
+    result.iterations +=
+        (treatment == "stokes" ? report.stokes.iterations : report.momentum.iterations) / (1.0 * steps);
     if (!(max_abs(fluid.velocity()) < 1e3)) return result;  // the walls move by at most 3
     result.time = t;
   }
@@ -140,10 +141,11 @@ void study(const Setting& s, const Plan& plan) {
   const Run half = run(s, plan.reference, plan.reference_steps / 2);
   if (!reference.velocity || !half.velocity) throw std::runtime_error("the reference blew up");
   const double own_error = errors(s, *half.velocity, *reference.velocity).all / 3.0;
-  std::printf(" {\"cells\": %d, \"ratio\": %g, \"reynolds_number\": %g, \"reference\": \"%s\", \"reference_steps\": %d, "
-              "\"reference_error\": %.3g, \"reference_seconds\": %.3f, \"runs\": [",
-              s.cells, s.ratio, s.reynolds_number, plan.reference.c_str(), plan.reference_steps, own_error,
-              reference.cpu_seconds);
+  std::printf(
+      " {\"cells\": %d, \"ratio\": %g, \"reynolds_number\": %g, \"reference\": \"%s\", \"reference_steps\": %d, "
+      "\"reference_error\": %.3g, \"reference_seconds\": %.3f, \"runs\": [",
+      s.cells, s.ratio, s.reynolds_number, plan.reference.c_str(), plan.reference_steps, own_error,
+      reference.cpu_seconds);
   bool first = true;
   for (const std::string& treatment : plan.treatments) {
     double treatment_seconds = 0.0;

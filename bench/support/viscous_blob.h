@@ -17,7 +17,11 @@ class ViscousBlob {
  public:
   // ratio: of the viscosity inside to that outside, 1. h: the mesh width; the viscosity goes from 10 to 90 % within two.
   ViscousBlob(double ratio, double h, double t)
-      : ratio_(ratio), width_(2.0 * h), centre_{0.3 * t, 0.0, 0.1 * t}, cosine_(std::cos(0.5 * t)), sine_(std::sin(0.5 * t)) {}
+      : ratio_(ratio),
+        width_(2.0 * h),
+        centre_{0.3 * t, 0.0, 0.1 * t},
+        cosine_(std::cos(0.5 * t)),
+        sine_(std::sin(0.5 * t)) {}
 
   // From the surface to first order, negative inside.
   double distance(const fluid::Vector3& r) const {

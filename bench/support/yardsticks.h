@@ -67,7 +67,9 @@ class Triad {
     for (std::size_t i = 0; i < count; ++i) a[i] = b[i] + 3.0 * c[i];
   }
   // Gigabytes per second, counting the line of a that is read before it is written.
-  static double rate(double milliseconds) { return 32e-6 * static_cast<double>(count) / milliseconds; }
+  static double rate(double milliseconds) {
+    return 32e-6 * static_cast<double>(count) / milliseconds;
+  }
 
  private:
   static constexpr std::size_t count = std::size_t{1} << 22;
