@@ -1,27 +1,26 @@
 // The "fft" solver of elliptic problems against FFTW's three-dimensional real-to-real transforms and against the memory
 // bandwidth, in one run.
 //   build/release/bench/elliptic [--cells X Y Z]... [--repetitions R] [--planning estimate|measure|patient] [--json]
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <functional>
 #include <map>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
-#include <fftw3.h>
 #include <omp.h>
 #include <CLI/CLI.hpp>
 
 #include "fluid/elliptic_solver.h"
+#include "support/timing.h"
+#include "support/yardsticks.h"
 
 namespace {
 
 using namespace vesiflow::fluid;
+using namespace vesiflow::bench;
 
 struct Case {
   const char* name;
@@ -41,109 +40,6 @@ const Case cases[] = {{"pressure", Centring::cell, neumann, {false, false, false
                       {"pressure, all periodic", Centring::cell, neumann, {true, true, true}},
                       {"u, x y periodic", Centring::face_x, dirichlet, {true, true, false}},
                       {"w, x y periodic", Centring::face_z, dirichlet, {true, true, false}}};
-
-double seconds(clockid_t clock) {
-  timespec time;
-  clock_gettime(clock, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-struct Sample {
-  double wall, cpu;  // milliseconds; cpu of this thread only
-};
-
-Sample timed(const std::function<void()>& call) {
-  const double wall = seconds(CLOCK_MONOTONIC);
-  const double cpu = seconds(CLOCK_THREAD_CPUTIME_ID);
-  call();
-  return {1e3 * (seconds(CLOCK_MONOTONIC) - wall), 1e3 * (seconds(CLOCK_THREAD_CPUTIME_ID) - cpu)};
-}
-
-double minimum(const std::vector<Sample>& samples, double Sample::*clock) {
-  double least = samples.front().*clock;
-  for (const Sample& s : samples) least = std::min(least, s.*clock);
-  return least;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
-double median(const std::vector<Sample>& samples, double Sample::*clock) {
-  std::vector<double> values;
-  for (const Sample& s : samples) values.push_back(s.*clock);
-  return median(values);
-}
-
-// Of the times in the same repetition.
-double median_ratio(const std::vector<Sample>& above, const std::vector<Sample>& below, double Sample::*clock) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i].*clock / (below[i].*clock));
-  return median(ratios);
-}
-
-// FFTW's transform there and back, in place, without the division by the eigenvalues.
-class R2rPair {
- public:
-  R2rPair(const EllipticProblem& problem, unsigned planning) {
-    const auto n = problem.extent();
-    count_ = problem.unknowns();
-    data_ = fftw_alloc_real(count_);
-    const auto plan = [&](bool forward) {
-      return fftw_plan_r2r_3d(n[2], n[1], n[0], data_, data_, kind(problem, 2, forward), kind(problem, 1, forward),
-                              kind(problem, 0, forward), planning);
-    };
-    forward_ = plan(true);
-    backward_ = plan(false);
-  }
-  ~R2rPair() {
-    fftw_destroy_plan(forward_);
-    fftw_destroy_plan(backward_);
-    fftw_free(data_);
-  }
-  R2rPair(const R2rPair&) = delete;
-  R2rPair& operator=(const R2rPair&) = delete;
-
-  void execute() {
-    std::fill_n(data_, 1, 1.0);
-    fftw_execute(forward_);
-    fftw_execute(backward_);
-  }
-  void clear() { std::fill_n(data_, count_, 0.0); }
-
- private:
-  static fftw_r2r_kind kind(const EllipticProblem& problem, int axis, bool forward) {
-    if (problem.grid.periodic[axis]) return forward ? FFTW_R2HC : FFTW_HC2R;
-    if (problem.boundary == neumann) return forward ? FFTW_REDFT10 : FFTW_REDFT01;
-    if (is_face_normal(problem.centring(), axis)) return FFTW_RODFT00;
-    return forward ? FFTW_RODFT10 : FFTW_RODFT01;
-  }
-
-  double* data_;
-  std::size_t count_;
-  fftw_plan forward_, backward_;
-};
-
-// a = b + s c of arrays that fit no cache. Gigabytes per second, counting the line of a that is read before it is written.
-class Triad {
- public:
-  Triad() : a_(count, 0.0), b_(count, 1.0), c_(count, 2.0) {}
-  void execute(int threads) {
-    const double* b = b_.data();
-    const double* c = c_.data();
-    double* a = a_.data();
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::size_t i = 0; i < count; ++i) a[i] = b[i] + 3.0 * c[i];
-  }
-  static double rate(double milliseconds) {
-    return 32e-6 * static_cast<double>(count) / milliseconds;
-  }
-
- private:
-  static constexpr std::size_t count = std::size_t{1} << 22;
-  std::vector<double> a_, b_, c_;
-};
 
 // Field-like arrays of one problem.
 struct Arrays {
