@@ -25,22 +25,22 @@ class WallClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Estimates the time left from the decay of the change since the last reports, which is exponential in the end.
+// Estimates the time left from the decay of the change since the first report: it is exponential on the whole, with waves.
 class Progress {
  public:
-  Progress(const SteadyOptions& options, double start) : options_(options), start_(start), earlier_(start) {}
+  Progress(const SteadyOptions& options, double start) : options_(options), start_(start) {}
 
   void report(double time, double change, double seconds) {
     if (!options_.progress || seconds < next_) return;
     next_ = seconds + seconds_between_reports;
     double left = options_.end - time;
-    if (earlier_change_ > change && change > 0) {
-      const double decay = std::log(earlier_change_ / change) / (time - earlier_);
+    if (first_change_ > change && change > 0) {
+      const double decay = std::log(first_change_ / change) / (time - first_time_);
       left = std::min(left, std::log(std::max(1.0, change / options_.tolerance)) / decay);
     }
-    if (time - earlier_ > 0.2 * (time - start_)) {
-      earlier_ = time;
-      earlier_change_ = change;
+    if (first_change_ == 0) {
+      first_time_ = time;
+      first_change_ = change;
     }
     fmt::print(stderr, "\r  t = {:<9.4g} change {:.2e}, steady at {:.0e}; about {:.0f} s left   ", time, change,
                options_.tolerance, left * seconds / (time - start_));
@@ -55,8 +55,8 @@ class Progress {
 
  private:
   const SteadyOptions& options_;
-  double start_, earlier_;
-  double earlier_change_ = 0, next_ = seconds_between_reports;
+  double start_, first_time_ = 0;
+  double first_change_ = 0, next_ = seconds_between_reports;
   bool shown_ = false;
 };
 
