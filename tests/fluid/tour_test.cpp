@@ -17,11 +17,13 @@
 namespace vesiflow::fluid {
 namespace {
 
+// Without indentation, and without the backslashes that bars need in tables.
 std::vector<std::string> lines_of(const std::string& path) {
   std::ifstream stream(path);
   EXPECT_TRUE(stream) << path;
   std::vector<std::string> lines;
   for (std::string line; std::getline(stream, line);) {
+    for (std::size_t bar; (bar = line.find("\\|")) != std::string::npos;) line.erase(bar, 1);
     const auto first = line.find_first_not_of(' ');
     lines.push_back(first == std::string::npos ? "" : line.substr(first));
   }
@@ -235,12 +237,14 @@ TEST(TourOfLibfluid, AnswersWrongInputAsItSays) {
   };
   const auto shown = lines_of(page);
   for (const auto& make : wrong) {
-    std::string message = message_of(make);
-    // Digits of residuals depend on the compiler.
+    const std::string message = message_of(make);
+    // Up to the digits of residuals, which depend on the compiler.
     const auto residual = message.find("residual of ");
-    message = residual == std::string::npos ? "`" + message + "`" : "`" + message.substr(0, residual + 12);
+    std::string quoted = "`";
+    quoted.append(message, 0, residual);
+    if (residual == std::string::npos) quoted += '`';
     const bool found = std::any_of(shown.begin(), shown.end(),
-                                   [&](const std::string& line) { return line.find(message) != std::string::npos; });
+                                   [&](const std::string& line) { return line.find(quoted) != std::string::npos; });
     EXPECT_TRUE(found) << "not in docs/fluid.md:\n" << message;
   }
 }
