@@ -1,6 +1,7 @@
 // A whole step of NavierStokes by phase, as a multiple of the four plain FFTW transform pairs (pressure and three velocity
 // components) that it replaces, measured in turn in one run with one thread.
-//   OMP_NUM_THREADS=1 build/release/bench/fluid_step [--cells N...] [--repetitions R] [--planning measure] [--json]
+//   OMP_NUM_THREADS=1 build/release/bench/fluid_step [--cells N...] [--repetitions R] [--only CASE...]
+//       [--planning measure] [--json]
 // Fails if a step allocates.
 #include <algorithm>
 #include <array>
@@ -29,10 +30,10 @@ struct Case {
   double ratio;
   ViscousTreatment treatment;
 };
-const Case cases[] = {{"ratio 1", 1.0, ViscousTreatment::extrapolated},
-                      {"ratio 20, explicit", 20.0, ViscousTreatment::explicit_},
-                      {"ratio 20, extrapolated", 20.0, ViscousTreatment::extrapolated},
-                      {"ratio 20, implicit", 20.0, ViscousTreatment::implicit}};
+const std::vector<Case> all_cases{{"ratio 1", 1.0, ViscousTreatment::extrapolated},
+                                  {"ratio 20, explicit", 20.0, ViscousTreatment::explicit_},
+                                  {"ratio 20, extrapolated", 20.0, ViscousTreatment::extrapolated},
+                                  {"ratio 20, implicit", 20.0, ViscousTreatment::implicit}};
 
 struct Phase {
   const char* name;
@@ -145,7 +146,7 @@ void print(const Case& c, int cells, const Row& row, long allocations, const std
 
 // The number of allocations in all flows. They are counted with two threads: a team of one is allocated by the OpenMP
 // runtime (libgomp) at every parallel region.
-long measure(int cells, int repetitions, unsigned planning, bool json, bool& first) {
+long measure(int cells, const std::vector<Case>& cases, int repetitions, unsigned planning, bool json, bool& first) {
   const Grid grid({-6, -6, -6}, {6, 6, 6}, {cells, cells, cells});
   FourTransforms reference(grid, planning);
   std::vector<std::unique_ptr<Flow>> flows;
@@ -179,6 +180,7 @@ int main(int argc, char** argv) {
   int repetitions = 15;
   unsigned planning = FFTW_MEASURE;
   bool json = false;
+  std::vector<std::string> only;
   CLI::App app("Times of a step of NavierStokes, by phase");
   app.add_option("--cells", sizes, "cells along each axis");
   app.add_option("--repetitions", repetitions, "interleaved repetitions of each measurement")
@@ -187,7 +189,12 @@ int main(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, unsigned>{
           {"estimate", FFTW_ESTIMATE}, {"measure", FFTW_MEASURE}, {"patient", FFTW_PATIENT}}));
   app.add_flag("--json", json, "print JSON instead of a table");
+  app.add_option("--only", only, "cases to measure, by name");
   CLI11_PARSE(app, argc, argv);
+  std::vector<Case> cases;
+  for (const Case& c : all_cases) {
+    if (only.empty() || std::find(only.begin(), only.end(), c.name) != only.end()) cases.push_back(c);
+  }
 
   if (json) {
     std::printf("[");
@@ -203,7 +210,7 @@ int main(int argc, char** argv) {
   }
   bool first = true;
   long allocations = 0;
-  for (const int cells : sizes) allocations += measure(cells, repetitions, planning, json, first);
+  for (const int cells : sizes) allocations += measure(cells, cases, repetitions, planning, json, first);
   if (json) std::printf("\n]\n");
   if (!vesiflow::test::allocations_are_counted()) std::fprintf(stderr, "allocations are not counted in this build\n");
   return allocations == 0 ? 0 : 1;
