@@ -27,15 +27,18 @@ class PhaseTimer {
   Clock::time_point start_ = Clock::now();
 };
 
+void check_grid(const Grid& grid, const Viscosity& viscosity) {
+  if (viscosity.is_constant() || viscosity.field().grid() == grid) return;
+  throw std::invalid_argument("fluid: the field of viscosity is on another grid");
+}
+
 FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
   const double re = parameters.reynolds_number;
   if (!(std::isfinite(re) && re > 0.0)) {
     throw std::invalid_argument(message("fluid: reynolds_number is ", re, "; it must be finite and > 0"));
   }
   parameters.viscosity.checked_range();
-  if (!parameters.viscosity.is_constant() && !(parameters.viscosity.field().grid() == grid)) {
-    throw std::invalid_argument("fluid: the field of viscosity is on another grid");
-  }
+  check_grid(grid, parameters.viscosity);
   return parameters;
 }
 
@@ -219,6 +222,11 @@ void Stepper::update_velocity_solver(double a) {
   if (velocity_solver && !variable_viscosity() && velocity_solver->problem().alpha == a) return;
   const PhaseTimer timer(timings.viscous);
   reference_viscosity_ = parameters.viscosity.checked_range().max;
+  if (variable_viscosity()) {
+    // Looked at anew, as its owner may have moved another field into it.
+    check_grid(grid, parameters.viscosity);
+    viscosity_.set(grid, parameters.viscosity);
+  }
   const EllipticProblem problem = momentum_problem(grid, parameters, a, reference_viscosity_);
   if (velocity_solver) {
     velocity_solver->update(problem);
