@@ -19,7 +19,8 @@ TREATMENTS = {
     "extrapolated": ("extrapolated", "#0072B2", "o"),
     "implicit": ("implicit, to 1e-10", "#000000", "D"),
     "loose": ("implicit, to 1e-5", "#009E73", "^"),
-    "stokes": ("no inertia (Stokes)", "#CC79A7", "v"),
+    "stokes": ("no inertia, to 1e-8", "#CC79A7", "v"),
+    "stokes_loose": ("no inertia, to 1e-4", "#E69F00", "<"),
 }
 STYLE = {"font.size": 9, "axes.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False, "savefig.dpi": 160}
 
@@ -58,7 +59,7 @@ def draw(studies, path):
     rows = sorted({(s["cells"], s["reynolds_number"]) for s in studies})
     ratios = sorted({s["ratio"] for s in studies})
     figure, grid = plt.subplots(len(rows), len(ratios), figsize=(3.2 * len(ratios), 2.6 * len(rows)), sharey=True,
-                                squeeze=False, layout="constrained")
+                                squeeze=False)
     for axes_of_row, row in zip(grid, rows):
         for axes, ratio in zip(axes_of_row, ratios):
             found = [s for s in studies if (s["cells"], s["reynolds_number"]) == row and s["ratio"] == ratio]
@@ -69,7 +70,11 @@ def draw(studies, path):
         axes_of_row[0].set_ylabel("relative error of u")
     for axes in grid[-1]:
         axes.set_xlabel("CPU seconds")
-    figure.legend(*grid[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=5, frameon=False)
+    entries = {}
+    for axes in grid.flat:
+        entries.update(zip(*reversed(axes.get_legend_handles_labels())))
+    figure.tight_layout(rect=(0, 0.35 / figure.get_figheight(), 1, 1))
+    figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=len(entries), frameon=False)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path)
 
@@ -102,14 +107,14 @@ def cost_of_schedule(study):
 
 
 def print_solvers(studies):
-    print("| cells, form, Re, ratio | solver | first update, s | iterations, later steps | solve, s | kept for | s per step |")
+    print("| cells, form, Re, ratio | solver | first update, s | iterations | solve, s | factor kept for | s per step |")
     print("|---|---|---|---|---|---|---|")
+    later = slice(2, None)  # steps with an extrapolated guess
     for s in studies:
         head = f"| {s['cells']}^3, {s['form']}, {s['reynolds_number']:g}, {s['ratio']:g} | {s['solver']} | "
         if "refused" in s:
             print(head + f"refused: {s['refused']} | | | | |")
             continue
-        later = slice(2, None)
         iterations = s["iterations"][later]
         solve = statistics.median(s["solve_seconds"][later])
         if s["solver"] == "cholmod":
@@ -117,8 +122,8 @@ def print_solvers(studies):
             kept = f"{kept} steps"
         else:
             cost, kept = solve + statistics.median(s["update_seconds"][later]), ""
-        print(head + f"{s['update_seconds'][0]:.3g} | {min(iterations):g} to {max(iterations):g} | {solve:.3g} | {kept} | "
-              f"{cost:.3g} |")
+        span = f"{min(iterations):g} to {max(iterations):g}"
+        print(f"{head}{s['update_seconds'][0]:.2g} | {span} | {solve:.2g} | {kept} | {cost:.2g} |")
 
 
 def main():
