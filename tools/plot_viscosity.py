@@ -8,6 +8,7 @@
 With --table and --solvers it prints Markdown tables instead.
 """
 import argparse
+import itertools
 import json
 import statistics
 import sys
@@ -56,20 +57,17 @@ def draw(studies, path):
     except ImportError as error:
         sys.exit(f"{error}. A python that has what this needs is found by: scripts/python.sh {' '.join(sys.argv)}")
     plt.rcParams.update(STYLE)
-    rows = sorted({(s["cells"], s["reynolds_number"]) for s in studies})
-    ratios = sorted({s["ratio"] for s in studies})
-    figure, grid = plt.subplots(len(rows), len(ratios), figsize=(3.2 * len(ratios), 2.6 * len(rows)), sharey=True,
-                                squeeze=False)
-    for axes_of_row, row in zip(grid, rows):
-        for axes, ratio in zip(axes_of_row, ratios):
-            found = [s for s in studies if (s["cells"], s["reynolds_number"]) == row and s["ratio"] == ratio]
-            if found:
-                draw_study(axes, found[0])
-            else:
-                axes.set_visible(False)
-        axes_of_row[0].set_ylabel("relative error of u")
-    for axes in grid[-1]:
-        axes.set_xlabel("CPU seconds")
+    columns = 3
+    rows = -(-len(studies) // columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(3.2 * columns, 2.6 * rows), sharey=True, squeeze=False)
+    for axes, study in itertools.zip_longest(grid.flat, studies):
+        if study:
+            draw_study(axes, study)
+            axes.set_xlabel("CPU seconds")
+        else:
+            axes.set_visible(False)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("relative error of u")
     entries = {}
     for axes in grid.flat:
         entries.update(zip(*reversed(axes.get_legend_handles_labels())))
@@ -113,7 +111,7 @@ def print_solvers(studies):
     for s in studies:
         head = f"| {s['cells']}^3, {s['form']}, {s['reynolds_number']:g}, {s['ratio']:g} | {s['solver']} | "
         if "refused" in s:
-            print(head + f"refused: {s['refused']} | | | | |")
+            print(head + "refused: too large | | | | |")
             continue
         iterations = s["iterations"][later]
         solve = statistics.median(s["solve_seconds"][later])
