@@ -8,6 +8,7 @@
 With --table and --solvers it prints Markdown tables instead.
 """
 import argparse
+import itertools
 import json
 import statistics
 import sys
@@ -19,7 +20,8 @@ TREATMENTS = {
     "extrapolated": ("extrapolated", "#0072B2", "o"),
     "implicit": ("implicit, to 1e-10", "#000000", "D"),
     "loose": ("implicit, to 1e-5", "#009E73", "^"),
-    "stokes": ("no inertia (Stokes)", "#CC79A7", "v"),
+    "stokes": ("no inertia, to 1e-8", "#CC79A7", "v"),
+    "stokes_loose": ("no inertia, to 1e-4", "#E69F00", "<"),
 }
 STYLE = {"font.size": 9, "axes.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False, "savefig.dpi": 160}
 
@@ -55,21 +57,22 @@ def draw(studies, path):
     except ImportError as error:
         sys.exit(f"{error}. A python that has what this needs is found by: scripts/python.sh {' '.join(sys.argv)}")
     plt.rcParams.update(STYLE)
-    rows = sorted({(s["cells"], s["reynolds_number"]) for s in studies})
-    ratios = sorted({s["ratio"] for s in studies})
-    figure, grid = plt.subplots(len(rows), len(ratios), figsize=(3.2 * len(ratios), 2.6 * len(rows)), sharey=True,
-                                squeeze=False, layout="constrained")
-    for axes_of_row, row in zip(grid, rows):
-        for axes, ratio in zip(axes_of_row, ratios):
-            found = [s for s in studies if (s["cells"], s["reynolds_number"]) == row and s["ratio"] == ratio]
-            if found:
-                draw_study(axes, found[0])
-            else:
-                axes.set_visible(False)
-        axes_of_row[0].set_ylabel("relative error of u")
-    for axes in grid[-1]:
-        axes.set_xlabel("CPU seconds")
-    figure.legend(*grid[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=5, frameon=False)
+    columns = 3
+    rows = -(-len(studies) // columns)
+    figure, grid = plt.subplots(rows, columns, figsize=(3.2 * columns, 2.6 * rows), sharey=True, squeeze=False)
+    for axes, study in itertools.zip_longest(grid.flat, studies):
+        if study:
+            draw_study(axes, study)
+            axes.set_xlabel("CPU seconds")
+        else:
+            axes.set_visible(False)
+    for axes in grid[:, 0]:
+        axes.set_ylabel("relative error of u")
+    entries = {}
+    for axes in grid.flat:
+        entries.update(zip(*reversed(axes.get_legend_handles_labels())))
+    figure.tight_layout(rect=(0, 0.35 / figure.get_figheight(), 1, 1))
+    figure.legend(entries.values(), entries.keys(), loc="lower center", ncol=len(entries), frameon=False)
     path.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path)
 
@@ -102,14 +105,14 @@ def cost_of_schedule(study):
 
 
 def print_solvers(studies):
-    print("| cells, form, Re, ratio | solver | first update, s | iterations, later steps | solve, s | kept for | s per step |")
+    print("| cells, form, Re, ratio | solver | first update, s | iterations | solve, s | factor kept for | s per step |")
     print("|---|---|---|---|---|---|---|")
+    later = slice(2, None)  # steps with an extrapolated guess
     for s in studies:
         head = f"| {s['cells']}^3, {s['form']}, {s['reynolds_number']:g}, {s['ratio']:g} | {s['solver']} | "
         if "refused" in s:
-            print(head + f"refused: {s['refused']} | | | | |")
+            print(head + "refused: too large | | | | |")
             continue
-        later = slice(2, None)
         iterations = s["iterations"][later]
         solve = statistics.median(s["solve_seconds"][later])
         if s["solver"] == "cholmod":
@@ -117,8 +120,8 @@ def print_solvers(studies):
             kept = f"{kept} steps"
         else:
             cost, kept = solve + statistics.median(s["update_seconds"][later]), ""
-        print(head + f"{s['update_seconds'][0]:.3g} | {min(iterations):g} to {max(iterations):g} | {solve:.3g} | {kept} | "
-              f"{cost:.3g} |")
+        span = f"{min(iterations):g} to {max(iterations):g}"
+        print(f"{head}{s['update_seconds'][0]:.2g} | {span} | {solve:.2g} | {kept} | {cost:.2g} |")
 
 
 def main():
