@@ -103,8 +103,11 @@ struct CholmodOptions {
 //
 // "fft" solves the laplacian form with a constant reference viscosity; where mu is a field, between two pointwise scalings
 // by about mu^(-1/4). The iterations to 1e-10 depend on the ratio of the largest viscosity to the smallest as
-// its power 0.3, and not on the grid: 25 for ratio 20 and 40 for ratio 100 in the laplacian form, 39 and 62 in the stress
-// form, 11 for a number mu in the stress form (measured for a smooth sphere, interface of two cells, 16^3 to 48^3).
+// its power 0.3, and hardly on the grid: 25 for ratio 20 and 40 for ratio 100 in the laplacian form, 39 and 62 in the stress
+// form, 11 for a number mu in the stress form (measured for a smooth sphere, interface of two cells, 16^3 to 48^3; random
+// right-hand sides). Slow smooth modes show later: with alpha near 0 and the right-hand sides of a flow the stress form
+// took 46, 50 and 58 for ratio 20 on 32^3, 64^3 and 128^3, and 78, 86 and 106 for ratio 100
+// (validation/viscosity_treatments.md).
 // "cholmod" solves the problem itself, with a factor that may lag.
 struct PcgOptions {
   double tolerance = 1e-10;  // of the residual, relative to the right-hand side (2-norms)

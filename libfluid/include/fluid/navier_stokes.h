@@ -25,9 +25,11 @@ enum class Inertia { full, unsteady, none };
 
 // How the viscous term div(mu (grad u + grad u^T)) is taken where mu is a field; mu_ref is its largest value.
 //   explicit_      mu_ref Lap u* + div((mu - mu_ref)(grad u^k + grad u^k^T)), the paper's: an error O(ratio dt)
-//   extrapolated   the same with (1+r) u^k - r u^{k-1} in the place of u^k: second order
-//   implicit       div(mu (grad u* + grad u*^T)): a coupled solve, by a variable-coefficient solver
-// The choice of inertia = none is always implicit.
+//   extrapolated   the same with (1+r) u^k - r u^{k-1} in the place of u^k: second order where inertia counts; with steps
+//                  above about 1 / (10 sqrt(ratio)) its errors ring, and are larger than those of explicit_
+//   implicit       div(mu (grad u* + grad u*^T)): a coupled solve, by a variable-coefficient solver; for large steps
+// At Reynolds numbers of 1e-3 the pressure, which lags by a step, limits all three: take inertia = none there, which treats
+// the stress implicitly always. Measured: validation/viscosity_treatments.md.
 enum class ViscousTreatment { explicit_, extrapolated, implicit };
 
 struct FluidParameters {
