@@ -49,13 +49,23 @@ WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool ste
       for (int side = 0; side < 2; ++side) planes_.push_back({component, axis, side, along, std::vector<double>(size)});
     }
   }
+  if (!steady) spare_planes_ = planes_;
   sample_all();
 }
 
 void WallVelocity::evaluate(double time) {
   if (steady_ || time == time_) return;
-  time_ = time;
-  sample_all();
+  const double time_before = std::exchange(time_, time);
+  const double flux_before = net_flux_;
+  std::swap(planes_, spare_planes_);
+  try {
+    sample_all();
+  } catch (...) {
+    std::swap(planes_, spare_planes_);
+    time_ = time_before;
+    net_flux_ = flux_before;
+    throw;
+  }
 }
 
 void WallVelocity::sample_all() {

@@ -167,7 +167,7 @@ bool CholmodSolver::needs_factorisation(const EllipticProblem& problem) const {
 
 void CholmodSolver::do_update(const EllipticProblem& problem) {
   ++updates_since_;
-  if (!workspace_ || !problem.same_structure(this->problem())) {
+  if (!may_reuse()) {
     constexpr double slack_of_the_rule = 2.0;
     check_limits(problem, rule_of_thumb(problem), options_, slack_of_the_rule);
     auto fresh = std::make_unique<Workspace>(problem);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "message.h"
+#include "planes.h"
 #include "stencil.h"
 
 namespace vesiflow::fluid {
@@ -99,7 +100,7 @@ double relative_residual(const EllipticProblem& problem, ConstBlocks rhs, ConstB
     }
     for_each([&](double value, double a) {
       largest = std::max(largest, std::abs(value - mean));
-      residual = std::max(residual, std::abs(value - mean - a));
+      residual = std::max(residual, magnitude(value - mean - a));
     });
   }
   return largest > 0.0 ? residual / largest : residual;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "fft_solver.h"
 #include "message.h"
@@ -88,13 +89,16 @@ IterationEstimate estimate_iterations(const EllipticProblem& problem, double rat
 void EllipticSolver::update(const EllipticProblem& problem) {
   const auto start = std::chrono::steady_clock::now();
   viscosity_range_ = problem.mu.checked_range();
+  may_reuse_ = std::exchange(ready_, false) && problem.same_structure(problem_);
   do_update(problem);
   problem_ = problem;
+  ready_ = true;
   update_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 SolveReport EllipticSolver::solve(ConstBlocks rhs, Blocks x) {
   const auto start = std::chrono::steady_clock::now();
+  if (!ready_) throw std::runtime_error("elliptic solver: the last update failed; update it again");
   check_shape("the right-hand side", rhs, problem_);
   check_shape("the solution", x, problem_);
   SolveReport report = do_solve(rhs, x);

@@ -38,7 +38,7 @@ void FftSolver::do_update(const EllipticProblem& problem) {
                                         " viscosity; use 'pcg' (which can take 'fft' as its preconditioner), "
                                         "'cholmod' or 'auto'"));
   }
-  const bool planned = !blocks_.empty() && problem.same_structure(this->problem());
+  const bool planned = may_reuse();
   if (!planned) blocks_.clear();
   for (int block = 0; block < problem.blocks(); ++block) {
     const EllipticProblem component = problem.component(block);

@@ -16,9 +16,12 @@ Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3
       throw std::invalid_argument(message("grid: axis ", axis, " runs from ", lower[axis], " to ", upper[axis],
                                           "; both must be finite and the upper end larger"));
     }
-    if (cells[axis] < min_cells) {
-      throw std::invalid_argument(
-          message("grid: ", cells[axis], " cells along axis ", axis, "; at least ", min_cells, " are needed"));
+    if (!std::isfinite(length(axis))) {
+      throw std::invalid_argument(message("grid: the length of axis ", axis, " overflows"));
+    }
+    if (cells[axis] < min_cells || cells[axis] > max_cells) {
+      throw std::invalid_argument(message("grid: ", cells[axis], " cells along axis ", axis, "; at least ", min_cells,
+                                          " are needed, and at most ", max_cells, " allowed"));
     }
   }
 }

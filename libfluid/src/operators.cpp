@@ -69,7 +69,7 @@ double max_divergence(const FaceVector& u) {
       const double* x = u.x.row(j, k);
       const double* y = u.y.row(j, k);
       const double* z = u.z.row(j, k);
-      for (int i = 0; i < n[0]; ++i) largest = std::max(largest, std::abs(cell_divergence(x + i, y + i, z + i)));
+      for (int i = 0; i < n[0]; ++i) largest = std::max(largest, magnitude(cell_divergence(x + i, y + i, z + i)));
     }
     return largest;
   });

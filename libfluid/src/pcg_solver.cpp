@@ -68,7 +68,7 @@ EllipticProblem PcgSolver::preconditioning_problem(const EllipticProblem& proble
 
 void PcgSolver::do_update(const EllipticProblem& problem) {
   const EllipticProblem reference = preconditioning_problem(problem);
-  if (!preconditioner_ || !problem.same_structure(this->problem())) {
+  if (!may_reuse()) {
     preconditioner_ = make_preconditioner(reference, options_.preconditioner);
     direction_ = std::make_unique<GhostedBlocks>(problem);
     product_ = std::make_unique<GhostedBlocks>(problem);
@@ -94,7 +94,7 @@ void PcgSolver::do_update(const EllipticProblem& problem) {
 // independent of the grid, however thin an interface (measured: with the power 1/2 instead, as exact for a mu that is
 // smooth on the grid's scale, iterations grow with the number of cells).
 void PcgSolver::set_scale(const EllipticProblem& problem, double reference) {
-  if (!scale_ || !problem.same_structure(this->problem())) scale_ = std::make_unique<GhostedBlocks>(problem);
+  if (!scale_ || !may_reuse()) scale_ = std::make_unique<GhostedBlocks>(problem);
   double per_viscosity = 0.0;
   for (int axis = 0; axis < 3; ++axis) per_viscosity += 2.0 / std::pow(problem.grid.spacing(axis), 2);
   const ConstView mu = problem.mu.field().points();
@@ -144,7 +144,7 @@ SolveReport PcgSolver::do_solve(ConstBlocks rhs, Blocks x) {
   copy(rhs, r);
   if (problem().has_nullspace()) report.removed_mean = plane_sums_.remove_means(r);
   const double scale = std::sqrt(plane_sums_.dot(r, r));
-  if (from_zero) {
+  if (from_zero || scale == 0.0) {
     set_zero(x);
   } else {
     if (problem().has_nullspace()) plane_sums_.remove_means(x);
@@ -157,7 +157,8 @@ SolveReport PcgSolver::do_solve(ConstBlocks rhs, Blocks x) {
     throw std::runtime_error(std::isfinite(scale) ? "elliptic solver: the x to start from is not finite"
                                                   : "elliptic solver: the right-hand side is not finite");
   }
-  const double target = options_.tolerance * scale;
+  // No further below a residual to start from than round-off allows.
+  const double target = std::max(options_.tolerance * scale, 1e-14 * norm);
   double rz = 0.0;
   while (norm > target && report.iterations < options_.max_iterations) {
     precondition(r, z);

@@ -68,31 +68,35 @@ void PlaneSolver::update(const EllipticProblem& problem) {
 
 double PlaneSolver::solve(ConstView rhs, View x) {
   double removed_mean = 0.0;
+  const auto forward = [&](int k, Scratch& scratch) {
+    forward_.execute(rhs.row(0, k), rhs.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+  };
+  const auto solve = [&](int j, Scratch& scratch) {
+    const double mean = solve_slab(x, j, scratch);
+    if (j == 0) removed_mean = mean;
+  };
+  const auto backward = [&](int k, Scratch& scratch) {
+    backward_.execute(x.row(0, k), x.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+  };
   if (worth_threads(extent_)) {
     const int threads = std::min(static_cast<int>(scratch_.size()), omp_get_max_threads());
 #pragma omp parallel num_threads(threads)
-    solve_share(rhs, x, scratch_[omp_get_thread_num()], removed_mean);
+    {
+      Scratch& scratch = scratch_[omp_get_thread_num()];
+#pragma omp for schedule(static)
+      for (int k = 0; k < extent_[2]; ++k) forward(k, scratch);
+#pragma omp for schedule(static)
+      for (int j = 0; j < extent_[1]; ++j) solve(j, scratch);
+#pragma omp for schedule(static)
+      for (int k = 0; k < extent_[2]; ++k) backward(k, scratch);
+    }
   } else {
-    solve_share(rhs, x, scratch_.front(), removed_mean);
+    Scratch& scratch = scratch_.front();
+    for (int k = 0; k < extent_[2]; ++k) forward(k, scratch);
+    for (int j = 0; j < extent_[1]; ++j) solve(j, scratch);
+    for (int k = 0; k < extent_[2]; ++k) backward(k, scratch);
   }
   return removed_mean;
-}
-
-// The share of one thread of a team, or of the only one.
-void PlaneSolver::solve_share(ConstView rhs, View x, Scratch& scratch, double& removed_mean) const {
-#pragma omp for schedule(static)
-  for (int k = 0; k < extent_[2]; ++k) {
-    forward_.execute(rhs.row(0, k), rhs.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
-  }
-#pragma omp for schedule(static)
-  for (int j = 0; j < extent_[1]; ++j) {
-    const double mean = solve_slab(x, j, scratch);
-    if (j == 0) removed_mean = mean;
-  }
-#pragma omp for schedule(static)
-  for (int k = 0; k < extent_[2]; ++k) {
-    backward_.execute(x.row(0, k), x.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
-  }
 }
 
 // All modes of x at one mode j of y, as many at a time as fit the cache.

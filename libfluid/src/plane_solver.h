@@ -29,7 +29,6 @@ class PlaneSolver final : public FastSolver {
     std::vector<double> shift;
   };
 
-  void solve_share(ConstView rhs, View x, Scratch& scratch, double& removed_mean) const;
   double solve_slab(View x, int j, Scratch& scratch) const;
 
   std::array<int, 3> extent_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -13,6 +14,11 @@ constexpr std::ptrdiff_t min_numbers_for_threads = 16384;
 
 inline bool worth_threads(const std::array<int, 3>& extent) {
   return static_cast<std::ptrdiff_t>(extent[0]) * extent[1] * extent[2] >= min_numbers_for_threads;
+}
+
+// |value|, or infinity for what is not a number: then a maximum does not lose it.
+inline double magnitude(double value) {
+  return value == value ? std::abs(value) : std::numeric_limits<double>::infinity();
 }
 
 // body(k) for k = 0 .. extent[2] - 1, by several threads if the arrays are large. The choice does not depend on the

@@ -1,5 +1,7 @@
 #include "stepper.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,6 +11,7 @@
 
 #include "fluid/operators.h"
 #include "message.h"
+#include "planes.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -32,6 +35,15 @@ void check_grid(const Grid& grid, const Viscosity& viscosity) {
   throw std::invalid_argument("fluid: the field of viscosity is on another grid");
 }
 
+void check_memory(const Grid& grid, const FluidParameters& parameters) {
+  const double bytes = static_cast<double>(NavierStokes::estimate_memory(grid, parameters));
+  const double physical = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (bytes <= physical) return;
+  throw std::invalid_argument(message("fluid: ", grid.cells[0], " x ", grid.cells[1], " x ", grid.cells[2],
+                                      " cells would take about ", bytes / 1e9, " GB, this machine has ", physical / 1e9,
+                                      " GB; use fewer cells"));
+}
+
 FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
   const double re = parameters.reynolds_number;
   if (!(std::isfinite(re) && re > 0.0)) {
@@ -39,6 +51,7 @@ FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
   }
   parameters.viscosity.checked_range();
   check_grid(grid, parameters.viscosity);
+  check_memory(grid, parameters);
   return parameters;
 }
 
@@ -64,11 +77,25 @@ double max_abs(const FaceVector& u) {
   for (const ConstView& field : u.points()) {
     for (int k = 0; k < field.extent[2]; ++k) {
       for (int j = 0; j < field.extent[1]; ++j) {
-        for (int i = 0; i < field.extent[0]; ++i) largest = std::max(largest, std::abs(field(i, j, k)));
+        for (int i = 0; i < field.extent[0]; ++i) largest = std::max(largest, magnitude(field(i, j, k)));
       }
     }
   }
   return largest;
+}
+
+bool is_finite(ConstView field) {
+  return std::isfinite(max_over_planes(field.extent, [&](int k) {
+    double largest = 0.0;
+    for (int j = 0; j < field.extent[1]; ++j) {
+      for (int i = 0; i < field.extent[0]; ++i) largest = std::max(largest, magnitude(field(i, j, k)));
+    }
+    return largest;
+  }));
+}
+
+bool is_finite(const FaceVector& u) {
+  return is_finite(u.x.unknowns()) && is_finite(u.y.unknowns()) && is_finite(u.z.unknowns());
 }
 
 }  // namespace
@@ -117,6 +144,7 @@ Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, Boundary
 void Stepper::start() {
   clock = {};
   pressure.fill(0.0);
+  if (convection_) convection_->fill(0.0);  // not used by the first step, but read
   walls.evaluate(0.0);
   walls.set_normal_faces(velocity);
   make_divergence_free();
@@ -129,22 +157,28 @@ void Stepper::make_divergence_free() {
   const double round_off = 16 * std::numeric_limits<double>::epsilon() * max_abs(velocity) / grid.min_spacing();
   if (max_divergence(velocity) <= round_off) return;
   divergence(velocity, chi_);
-  pressure_solver->solve(chi_.unknowns(), chi_.unknowns());
+  check_converged("pressure", pressure_solver->solve(chi_.unknowns(), chi_.unknowns()));
   remove_divergence(chi_, velocity);
 }
 
 void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& function) {
-  const auto fields = velocity.points();
+  FaceVector sampled(grid);
+  const auto fields = sampled.points();
   for (int component = 0; component < 3; ++component) {
     const View& field = fields[component];
     for (int k = 0; k < field.extent[2]; ++k) {
       for (int j = 0; j < field.extent[1]; ++j) {
         for (int i = 0; i < field.extent[0]; ++i) {
-          field(i, j, k) = function(point_position(grid, face_centrings[component], i, j, k))[component];
+          const Vector3 r = point_position(grid, face_centrings[component], i, j, k);
+          field(i, j, k) = function(r)[component];
+          if (std::isfinite(field(i, j, k))) continue;
+          throw std::invalid_argument(message("fluid: the velocity to start from is ", field(i, j, k), " in component ",
+                                              component, " at (", r[0], ", ", r[1], ", ", r[2], ")"));
         }
       }
     }
   }
+  velocity = std::move(sampled);
   start();
 }
 
@@ -154,11 +188,17 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
     throw std::invalid_argument("fluid: the state to restore is on another grid");
   }
   if (clock_.steps < 0 || !std::isfinite(clock_.time) || !std::isfinite(clock_.previous_time) ||
-      (clock_.steps > 0 && !(clock_.time_step > 0.0 && std::isfinite(clock_.time_step)))) {
+      (clock_.steps > 0 &&
+       !(clock_.time_step > 0.0 && std::isfinite(clock_.time_step) && clock_.previous_time < clock_.time))) {
     throw std::invalid_argument(message("fluid: the state to restore has time ", clock_.time, ", previous time ",
                                         clock_.previous_time, ", time step ", clock_.time_step, " and step number ",
-                                        clock_.steps, "; they must be finite, and the time step positive"));
+                                        clock_.steps, "; they must be finite, in order, and the time step positive"));
   }
+  if (!(is_finite(velocity_) && is_finite(previous_) && is_finite(pressure_.points()))) {
+    throw std::invalid_argument("fluid: the state to restore is not finite");
+  }
+  walls.evaluate(clock_.previous_time);  // refuses what it has to before anything is changed
+  walls.evaluate(clock_.time);
   clock = clock_;
   copy(velocity_, velocity);
   copy(previous_, previous);
@@ -167,7 +207,11 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
   walls.evaluate(clock.previous_time);
   walls.set_normal_faces(previous);
   walls.fill_ghosts(previous);
-  if (convection_ && clock.steps > 0) convection(previous, *convection_);
+  if (convection_ && clock.steps > 0) {
+    convection(previous, *convection_);
+  } else if (convection_) {
+    convection_->fill(0.0);
+  }
   walls.evaluate(clock.time);
   walls.set_normal_faces(velocity);
   walls.fill_ghosts(velocity);

@@ -80,15 +80,15 @@ void StokesSolver::System::update(const Viscosity& mu) {
   }
   mu.checked_range();
   if (mu.is_constant()) {
-    variable_.reset();
     if (!constant_) constant_ = std::make_unique<SchurComplementSolver>(grid, mu.value());
     constant_->update(mu.value());
     solver_ = constant_.get();
+    variable_.reset();
   } else {
-    constant_.reset();
     if (!variable_) variable_ = std::make_unique<BramblePasciakSolver>(grid);
     variable_->update(mu);
     solver_ = variable_.get();
+    constant_.reset();
   }
   pressure_solver_->update(pressure_problem(grid));
   mu_.emplace(grid, mu);
@@ -133,12 +133,17 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   const double size = solver_->norm(residual_);
   const auto relative_to = [](double whole, double part) { return whole > 0.0 ? part / whole : part; };
 
+  if (size == 0.0) {  // nothing moves, whatever the guess
+    set_zero(u.unknowns());
+    set_zero(p.unknowns());
+  }
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
   walls.set_normal_faces(u);
   walls.fill_ghosts(u);
   set_residual(force, u, p.unknowns());
   if (!std::isfinite(velocity_residual_norm())) throw std::runtime_error("stokes: the initial guess is not finite");
-  const double target = options.tolerance * size;
+  // No further below the residual of the guess than round-off allows.
+  const double target = std::max(options.tolerance * size, 1e-13 * solver_->norm(residual_));
   const SaddleProgress progress = solver_->solve(residual_, target, options.max_iterations, correction_);
   report.iterations = progress.iterations;
   report.converged = progress.norm <= target;

@@ -485,7 +485,8 @@ TEST(Stokes, RefusesWhatCannotBeSolved) {
     EXPECT_THAT([&] { solver.solve(force, walls, s.u, s.p); },
                 ThrowsMessage<std::runtime_error>(HasSubstr("the force is not finite")));
     s.p(2, 2, 2) = std::numeric_limits<double>::infinity();
-    EXPECT_THAT([&] { solver.solve(FaceVector(grid), walls, s.u, s.p); },
+    force.y(3, 3, 3) = 1.0;  // with nothing that drives the flow the guess does not matter
+    EXPECT_THAT([&] { solver.solve(force, walls, s.u, s.p); },
                 ThrowsMessage<std::runtime_error>(HasSubstr("the initial guess is not finite")));
     s.p.fill(0.0);
   }

@@ -32,7 +32,7 @@ class WallVelocity {
   // through the walls. Data that has it is sampled at face centres with an error O(h^2); such a remainder is
   // spread evenly over all the walls' normal velocity. Throws std::invalid_argument with the flux if it is
   // more than max_relative_flux of the flux of |u.n|, if a value is not finite, or if the function differs at the two
-  // ends of a periodic axis.
+  // ends of a periodic axis; the data is then what it was before.
   void evaluate(double time);
   static constexpr double max_relative_flux = 0.01;
 
@@ -72,7 +72,8 @@ class WallVelocity {
   bool steady_;
   double time_ = 0.0;
   double net_flux_ = 0.0;
-  std::vector<Plane> planes_;  // those on walls are sampled
+  std::vector<Plane> spare_planes_;  // of the time before, if they change
+  std::vector<Plane> planes_;        // those on walls are sampled
 };
 
 }  // namespace vesiflow::fluid

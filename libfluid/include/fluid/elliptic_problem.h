@@ -72,7 +72,8 @@ struct EllipticProblem {
 // y = A x. x and y have the shapes of the problem and must not overlap. Allocates one or four arrays, for the ghosts.
 void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y);
 
-// max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace. Allocates.
+// max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace; infinite if x is not
+// finite. Allocates.
 double relative_residual(const EllipticProblem& problem, ConstBlocks rhs, ConstBlocks x);
 
 }  // namespace vesiflow::fluid

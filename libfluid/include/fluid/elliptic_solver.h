@@ -55,6 +55,8 @@ class EllipticSolver {
   explicit EllipticSolver(const EllipticProblem& problem) : problem_(problem) {}
   // Of mu, at the last update.
   const Viscosity::Range& viscosity_range() const { return viscosity_range_; }
+  // For do_update(): whether plans and arrays of the last one are there and suit the new problem.
+  bool may_reuse() const { return may_reuse_; }
 
  private:
   virtual void do_update(const EllipticProblem& problem) = 0;
@@ -63,6 +65,8 @@ class EllipticSolver {
   EllipticProblem problem_;
   Viscosity::Range viscosity_range_{};
   double update_seconds_ = 0.0;
+  bool ready_ = false;  // the last update succeeded
+  bool may_reuse_ = false;
 };
 
 // Fast sine, cosine and Fourier transforms in x and y with the eigenvalues of the discrete operator, and the difference
@@ -92,7 +96,7 @@ struct RefactorPolicy {
 // Needs the build option VESIFLOW_WITH_CHOLMOD.
 //
 // The limits are checked by a rule of thumb before any work (against twice the limit) and by CHOLMOD's own counts after
-// the analysis. The time is an estimate for one core at 15 Gflop/s.
+// the analysis. The time is an estimate for one core at 15 Gflop/s and 0.25 GB/s of new memory.
 struct CholmodOptions {
   double memory_limit = 2e9;  // bytes; problems whose factor is estimated larger are refused
   double time_limit = 600.0;  // seconds; problems whose factorisation is estimated to take longer are refused

@@ -16,9 +16,10 @@ using Vector3 = std::array<double, 3>;
 // faces normal to it, the faces on the two walls included (see field.h).
 struct Grid {
   static constexpr int min_cells = 4;
+  static constexpr int max_cells = 65536;  // per axis: indices of the whole array then fit 64 bits
 
   // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and
-  // cells >= min_cells.
+  // min_cells <= cells <= max_cells.
   Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells,
        const std::array<bool, 3>& periodic = {false, false, false});
 

@@ -91,7 +91,8 @@ struct FluidReport {
 class NavierStokes {
  public:
   // At rest inside, moving as told on the walls (if there are any), at time zero. Throws std::invalid_argument for parameters
-  // out of range, wall data with a net flux (WallVelocity) and solvers that are not available.
+  // out of range, wall data with a net flux (WallVelocity), a pressure solver that is not available, and a grid
+  // that would take more memory than the machine has. The velocity solver is made, or refused, in the first step.
   NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary = nullptr,
                bool steady_boundary = true);
   ~NavierStokes();
@@ -99,12 +100,14 @@ class NavierStokes {
   NavierStokes& operator=(NavierStokes&&) noexcept;
 
   // Starts anew at time zero from a velocity sampled at the faces, pressure zero. If the samples (with the
-  // walls) are not discretely divergence-free to round-off, their divergence-free part is taken.
+  // walls) are not discretely divergence-free to round-off, their divergence-free part is taken. Throws
+  // std::invalid_argument, with the place, if a sample is not finite.
   void set_velocity(const std::function<Vector3(const Vector3& position)>& velocity);
 
   // Continues from a state: the velocities and pressure at the points inside (faces on walls and ghosts are
   // set from the walls). Fields of a run give, bit for bit, the continuation of that run. Throws
-  // std::invalid_argument if a grid differs or the clock is impossible.
+  // std::invalid_argument, and changes nothing, if a grid differs, a number is not finite or the clock is impossible.
+  // (Bit for bit with iterative solvers too, but not with a factor that lags, or an "auto" that would now choose anew.)
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                const FluidClock& clock);
 

@@ -18,7 +18,7 @@ void gradient(const Field<Cell>& p, FaceVector& g);
 // WallVelocity::set_normal_faces). No ghosts are read or set.
 void divergence(const FaceVector& u, Field<Cell>& d);
 
-// max |div u| over the cells.
+// max |div u| over the cells; infinite if u is not finite.
 double max_divergence(const FaceVector& u);
 
 // n = N(u) = 1/2 (u.grad)u + 1/2 div(u u), for one component c at its faces (paper, Section 3.3, Step 3):
