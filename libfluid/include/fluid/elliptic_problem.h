@@ -69,7 +69,7 @@ struct EllipticProblem {
   bool is_vector_ = false;
 };
 
-// y = A x. x and y have the shapes of the problem and must not overlap. Allocates one or four arrays, for the ghosts.
+// y = A x. x and y have the shapes of the problem and must not overlap. Allocates an array per block, for the ghosts.
 void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y);
 
 // max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace; infinite if x is not
