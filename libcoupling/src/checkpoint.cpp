@@ -13,7 +13,7 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::int64_t format_version = 2;
+constexpr std::int64_t format_version = 3;
 
 template <class Centring>
 void write_field(Hdf5File& file, const std::string& name, const fluid::Field<Centring>& field) {
@@ -61,9 +61,9 @@ void write_vesicle(Hdf5File& file, const std::string& group, const VesicleState&
   write_array(file, group + "/initial_areas", m.initial_areas.data(), m.initial_areas.size());
   file.attribute(group, "initial_volume", m.initial_volume);
   file.attribute(group, "redistributions", state.redistributions);
-  if (!state.integrator_history.empty())
-    write_array(file, group + "/integrator_history", state.integrator_history.data(),
-                static_cast<Eigen::Index>(state.integrator_history.size()));
+  if (!state.motion_history.empty())
+    write_array(file, group + "/motion_history", state.motion_history.data(),
+                static_cast<Eigen::Index>(state.motion_history.size()));
 }
 
 VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
@@ -79,7 +79,7 @@ VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen:
   read_into(file, group + "/initial_areas", m.initial_areas.data(), size, path);
   m.initial_volume = file.read_number(group, "initial_volume");
   state.redistributions = file.read_integer(group, "redistributions");
-  if (file.exists(group + "/integrator_history")) state.integrator_history = file.read(group + "/integrator_history");
+  if (file.exists(group + "/motion_history")) state.motion_history = file.read(group + "/motion_history");
   return state;
 }
 

@@ -7,39 +7,11 @@
 
 #include "coupling/errors.h"
 #include "fluid/operators.h"
-#include "initial_shape.h"
+#include "immersed_vesicle.h"
 #include "phase_timer.h"
 
 namespace vesiflow::coupling {
 namespace {
-
-vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
-  vesicle::MembraneParameters parameters;
-  parameters.capillary_number = scene.membrane.capillary_number;
-  parameters.sigma0 = scene.membrane.sigma0;
-  parameters.spontaneous_curvature = scene.membrane.spontaneous_curvature;
-  parameters.tension_law = scene.membrane.tension_law;
-  parameters.tension_form = scene.membrane.tension_form;
-  parameters.area = scene.membrane.area;
-  parameters.area_stiffness = scene.membrane.area_stiffness;
-  parameters.laplacian.form = scene.membrane.laplacian;
-  parameters.laplacian.upsampling = scene.membrane.upsampling;
-  // Eq. (14) goes with the truncation that the paper gives it.
-  parameters.laplacian.truncated = scene.membrane.laplacian == vesicle::LaplacianForm::paper;
-  parameters.volume = scene.membrane.volume;
-  parameters.volume_stiffness = scene.membrane.volume_stiffness;
-  parameters.filter = scene.mesh.filter;
-  parameters.slip = scene.mesh.slip;
-  parameters.normal_degrees = scene.mesh.normal_degrees;
-  parameters.tangential_degrees = scene.mesh.tangential_degrees;
-  return parameters;
-}
-
-/// Degrees of the velocity that shapes the membranes.
-int moving_degrees(const Scene& scene) {
-  const int degrees = scene.mesh.normal_degrees;
-  return degrees > 0 ? degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
-}
 
 /// Steps between two looks at the meshes, which change by a few per cent in that time. Where redistribution does not help it
 /// is tried again each time, at the price of about ten steps of a small scene.
@@ -59,34 +31,6 @@ std::string blow_up_advice(const Scene& scene) {
 }
 
 }  // namespace
-
-struct Simulation::ImmersedVesicle {
-  ImmersedVesicle(const VesicleScene& shape, const Scene& scene)
-      : membrane(initial_markers(shape, scene.mesh.latitudes), scene.mesh.latitudes, membrane_parameters(scene)),
-        transfer(grid_of(scene)),
-        positions(membrane.positions()),
-        velocity(vesicle::VectorField::Zero(positions.rows(), 3)),
-        mesh_velocity(vesicle::VectorField::Zero(positions.rows(), 3)),
-        integrator(make_marker_integrator(scene.time.markers, static_cast<std::size_t>(positions.size()))) {}
-
-  // Geometry and forces at the present positions; looking at a vesicle between two steps costs the next step nothing.
-  void update() {
-    if (is_current) return;
-    membrane.update_geometry();
-    membrane.compute_force();
-    is_current = true;
-  }
-
-  vesicle::Membrane membrane;
-  MarkerTransfer transfer;
-  vesicle::VectorField positions;      // X
-  vesicle::VectorField velocity;       // U, interpolated from the fluid
-  vesicle::VectorField mesh_velocity;  // U~, filtered
-  std::unique_ptr<MarkerIntegrator> integrator;
-  MarkerVelocity filtered_fluid_velocity;  // what the integrator asks for; made once, so that steps do not allocate
-  std::int64_t redistributions = 0;
-  bool is_current = false;
-};
 
 fluid::Grid grid_of(const Scene& scene) {
   return {scene.domain.lower, scene.domain.upper, scene.domain.cells};
@@ -135,22 +79,12 @@ Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, 
   scene_.flow.type = type;
   if (scene_.flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow(x, 0.0); });
-  for (const VesicleScene& shape : scene_.vesicles) {
-    ImmersedVesicle& v = *vesicles_.emplace_back(std::make_unique<ImmersedVesicle>(shape, scene_));
-    v.filtered_fluid_velocity = [this, &v](std::span<const double> state, std::span<double> velocity) {
-      v.transfer.update(Eigen::Map<const vesicle::VectorField>(state.data(), v.positions.rows(), 3));
-      {
-        const PhaseTimer timer(seconds_.interpolate);
-        v.transfer.interpolate(fluid_.velocity(), v.velocity);
-      }
-      v.membrane.filter_velocity(v.velocity, scene_.time.step, v.mesh_velocity);
-      Eigen::Map<vesicle::VectorField>(velocity.data(), v.positions.rows(), 3) = v.mesh_velocity;
-    };
-  }
+  for (std::size_t i = 0; i < scene_.vesicles.size(); ++i)
+    vesicles_.push_back(std::make_unique<ImmersedVesicle>(scene_, i, fluid_.grid()));
   if (scene_.mesh.redistribute == Redistribute::when_needed)
     redistribution_.emplace(scene_.mesh.latitudes, moving_degrees(scene_));
   last_redistributions_.reserve(vesicles_.size());
-  for (auto& v : vesicles_) interpolate_velocity(*v);
+  for (auto& v : vesicles_) v->interpolate(scene_.time.step, fluid_.velocity());
 }
 
 Simulation::~Simulation() = default;
@@ -175,11 +109,11 @@ void Simulation::compute_forces() {
     ImmersedVesicle& v = *vesicles_[i];
     {
       const PhaseTimer timer(seconds_.membrane);
-      v.update();
+      v.predict(scene_.time.step);
       check_limits(i);
     }
     const PhaseTimer timer(seconds_.spread);
-    v.transfer.update(v.positions);
+    v.transfer.update(v.membrane.positions());
     v.transfer.spread(v.membrane.force(), v.membrane.surface().area_weight(), fluid_.force());
   }
 }
@@ -193,13 +127,9 @@ void Simulation::advance_fluid() {
 }
 
 void Simulation::move_markers() {
-  const double dt = scene_.time.step;
   for (auto& v : vesicles_) {
     const PhaseTimer timer(seconds_.mesh);
-    const std::span<double> state(v->positions.data(), static_cast<std::size_t>(v->positions.size()));
-    v->integrator->advance(dt, v->filtered_fluid_velocity, state);
-    v->membrane.advance(v->positions, v->velocity, v->mesh_velocity, dt);
-    v->is_current = false;
+    v->advance(scene_.time.step, fluid_.velocity(), seconds_.interpolate);
   }
 }
 
@@ -217,10 +147,9 @@ void Simulation::redistribute_markers() {
     if (!limits.passed_by(vesicle::mesh_quality(v.membrane.surface()))) continue;
     const vesicle::RedistributionReport report = v.membrane.redistribute(*redistribution_);
     if (!report.moved) continue;
-    v.positions = v.membrane.positions();
-    v.integrator->restart();
+    v.motion->restart();
     v.is_current = false;
-    interpolate_velocity(v);
+    v.interpolate(scene_.time.step, fluid_.velocity());
     ++v.redistributions;
     last_redistributions_.push_back({i, report});
   }
@@ -237,18 +166,11 @@ void Simulation::check_limits(std::size_t i) const {
         blow_up_advice(scene_));
 }
 
-// The velocities at present markers that no step has moved yet.
-void Simulation::interpolate_velocity(ImmersedVesicle& v) {
-  v.transfer.update(v.positions);
-  v.transfer.interpolate(fluid_.velocity(), v.velocity);
-  v.membrane.filter_velocity(v.velocity, scene_.time.step, v.mesh_velocity);
-}
-
 std::vector<vesicle::Diagnostics> Simulation::measure() {
   const PhaseTimer timer(seconds_.diagnostics);
   std::vector<vesicle::Diagnostics> all;
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
-    all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocity, vesicles_[i]->mesh_velocity));
+    all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.mesh));
   return all;
 }
 
@@ -270,7 +192,7 @@ long Simulation::redistributions(std::size_t i) const {
 }
 
 const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const {
-  return vesicles_.at(i)->velocity;
+  return vesicles_.at(i)->velocities.fluid;
 }
 
 PhaseSeconds Simulation::phase_seconds() const {
@@ -286,7 +208,7 @@ SimulationState Simulation::state() const {
   SimulationState state{
       fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}};
   for (const auto& v : vesicles_) {
-    const auto history = v->integrator->history();
+    const auto history = v->motion->history();
     state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
   }
   return state;
@@ -300,14 +222,13 @@ void Simulation::restore(const SimulationState& state) {
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
     v.membrane.restore(state.vesicles[i].membrane);
-    v.positions = v.membrane.positions();
     v.is_current = false;
-    if (!state.vesicles[i].integrator_history.empty())
-      v.integrator->restore_history(scene_.time.step, state.vesicles[i].integrator_history);
+    if (!state.vesicles[i].motion_history.empty())
+      v.motion->restore_history(scene_.time.step, state.vesicles[i].motion_history);
     else
-      v.integrator->restart();
+      v.motion->restart();
     v.redistributions = state.vesicles[i].redistributions;
-    interpolate_velocity(v);
+    v.interpolate(scene_.time.step, fluid_.velocity());
   }
   last_redistributions_.clear();
 }

@@ -65,7 +65,7 @@ void expect_same_state(const fs::path& a, const fs::path& b, const Scene& scene)
   EXPECT_TRUE((x.vesicles[0].membrane.positions == y.vesicles[0].membrane.positions).all());
   EXPECT_TRUE((x.vesicles[0].membrane.target_areas == y.vesicles[0].membrane.target_areas).all());
   EXPECT_TRUE((x.vesicles[0].membrane.initial_areas == y.vesicles[0].membrane.initial_areas).all());
-  EXPECT_EQ(x.vesicles[0].integrator_history, y.vesicles[0].integrator_history);
+  EXPECT_EQ(x.vesicles[0].motion_history, y.vesicles[0].motion_history);
   EXPECT_EQ(x.vesicles[0].redistributions, y.vesicles[0].redistributions);
 }
 

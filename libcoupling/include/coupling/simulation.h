@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "coupling/marker_integrator.h"
-#include "coupling/marker_transfer.h"
 #include "coupling/scene.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/diagnostics.h"
@@ -35,7 +33,7 @@ struct Redistribution {
 /// Everything a run needs to go on as if it had not been interrupted.
 struct VesicleState {
   vesicle::MembraneState membrane;
-  std::vector<double> integrator_history;
+  std::vector<double> motion_history;
   std::int64_t redistributions = 0;
 };
 struct SimulationState {
@@ -44,6 +42,8 @@ struct SimulationState {
   fluid::FluidClock clock;
   std::vector<VesicleState> vesicles;
 };
+
+struct ImmersedVesicle;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
 class Simulation {
@@ -90,8 +90,6 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
-  struct ImmersedVesicle;
-
   Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady, FlowType type);
 
   void compute_forces();
@@ -99,7 +97,6 @@ class Simulation {
   void move_markers();
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
-  void interpolate_velocity(ImmersedVesicle& vesicle);
 
   Scene scene_;
   fluid::NavierStokes fluid_;

@@ -1,0 +1,77 @@
+#include "immersed_vesicle.h"
+
+#include "initial_shape.h"
+#include "phase_timer.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
+  vesicle::MembraneParameters parameters;
+  parameters.capillary_number = scene.membrane.capillary_number;
+  parameters.sigma0 = scene.membrane.sigma0;
+  parameters.spontaneous_curvature = scene.membrane.spontaneous_curvature;
+  parameters.tension_law = scene.membrane.tension_law;
+  parameters.tension_form = scene.membrane.tension_form;
+  parameters.area = scene.membrane.area;
+  parameters.area_stiffness = scene.membrane.area_stiffness;
+  parameters.laplacian.form = scene.membrane.laplacian;
+  parameters.laplacian.upsampling = scene.membrane.upsampling;
+  // Eq. (14) goes with the truncation that the paper gives it.
+  parameters.laplacian.truncated = scene.membrane.laplacian == vesicle::LaplacianForm::paper;
+  parameters.volume = scene.membrane.volume;
+  parameters.volume_stiffness = scene.membrane.volume_stiffness;
+  parameters.filter = scene.mesh.filter;
+  parameters.slip = scene.mesh.slip;
+  parameters.normal_degrees = scene.mesh.normal_degrees;
+  parameters.tangential_degrees = scene.mesh.tangential_degrees;
+  return parameters;
+}
+
+}  // namespace
+
+int moving_degrees(const Scene& scene) {
+  const int degrees = scene.mesh.normal_degrees;
+  return degrees > 0 ? degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
+}
+
+ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid)
+    : membrane(initial_markers(scene.vesicles[number], scene.mesh.latitudes), scene.mesh.latitudes,
+               membrane_parameters(scene)),
+      transfer(grid),
+      motion(make_membrane_motion(scene, membrane)) {
+  const Eigen::Index markers = membrane.positions().rows();
+  velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
+  velocity_at_ = [this](const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity) {
+    const PhaseTimer timer(*interpolation_seconds_);
+    transfer.update(positions);
+    transfer.interpolate(*fluid_velocity_, velocity);
+  };
+}
+
+void ImmersedVesicle::update() {
+  if (is_current) return;
+  membrane.update_geometry();
+  membrane.compute_force();
+  is_current = true;
+}
+
+void ImmersedVesicle::predict(double dt) {
+  if (motion->predict(dt, membrane)) is_current = false;
+  update();
+}
+
+void ImmersedVesicle::advance(double dt, const fluid::FaceVector& velocity, double& interpolation_seconds) {
+  fluid_velocity_ = &velocity;
+  interpolation_seconds_ = &interpolation_seconds;
+  motion->advance(dt, velocity_at_, membrane, velocities);
+  is_current = false;
+}
+
+void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {
+  transfer.update(membrane.positions());
+  transfer.interpolate(velocity, velocities.fluid);
+  motion->mesh_velocity(dt, membrane, velocities);
+}
+
+}  // namespace vesiflow::coupling

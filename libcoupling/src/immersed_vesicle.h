@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "coupling/marker_transfer.h"
+#include "coupling/scene.h"
+#include "fluid/field.h"
+#include "membrane_motion.h"
+#include "vesicle/membrane.h"
+
+namespace vesiflow::coupling {
+
+/// One vesicle in the fluid: its membrane, the transfers between its markers and the grid, and how it moves.
+struct ImmersedVesicle {
+  ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid);
+
+  /// Geometry and forces at the present state; looking at a vesicle between two steps costs the next step nothing, unless
+  /// that predicts.
+  void update();
+
+  /// Geometry and forces at the state whose forces drive the step.
+  void predict(double dt);
+
+  /// To the end of the step, in the fluid velocity of the new time. Adds the seconds of interpolation.
+  void advance(double dt, const fluid::FaceVector& velocity, double& interpolation_seconds);
+
+  /// Velocities at markers that no step has moved yet.
+  void interpolate(double dt, const fluid::FaceVector& velocity);
+
+  vesicle::Membrane membrane;
+  MarkerTransfer transfer;
+  MarkerVelocities velocities;
+  std::unique_ptr<MembraneMotion> motion;
+  std::int64_t redistributions = 0;
+  bool is_current = false;  ///< whether geometry and forces are those of the membrane's state
+
+ private:
+  VelocityAt velocity_at_;  // made once, so that steps do not allocate
+  const fluid::FaceVector* fluid_velocity_ = nullptr;
+  double* interpolation_seconds_ = nullptr;
+};
+
+/// Degrees of the velocity that shapes the membranes.
+int moving_degrees(const Scene& scene);
+
+}  // namespace vesiflow::coupling

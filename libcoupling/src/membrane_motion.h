@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "coupling/scene.h"
+#include "vesicle/membrane.h"
+
+namespace vesiflow::coupling {
+
+/// Interpolates the fluid velocity: U at the given positions, both of shape (markers, 3).
+using VelocityAt =
+    std::function<void(const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity)>;
+
+/// Velocities at the markers, shape (markers, 3).
+struct MarkerVelocities {
+  vesicle::VectorField fluid;  ///< U, interpolated
+  vesicle::VectorField mesh;   ///< U~, which moved the markers
+};
+
+/// How one membrane and its mesh move through a step (Steps 4 and 5 of the paper):
+///   predict(dt, membrane);  forces at the predicted state, fluid;  advance(dt, velocity_at, membrane, velocities).
+/// Knows a membrane but no grid. Histories belong to the motion: it starts itself, and they can be saved and restored.
+class MembraneMotion {
+ public:
+  virtual ~MembraneMotion() = default;
+
+  /// Brings the membrane to the state whose forces drive the fluid in the coming step of length dt. Returns false if that is
+  /// the one it is in: the forces are those of the start of the step.
+  virtual bool predict(double /*dt*/, vesicle::Membrane& /*membrane*/) { return false; }
+
+  /// Takes the membrane to the end of the step, its geometry being that of the predicted state and the fluid velocity that
+  /// of the new time. Leaves in `velocities` those that it used.
+  /// \throws std::domain_error when the result is not usable
+  virtual void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
+                       MarkerVelocities& velocities) = 0;
+
+  /// U~ of an interpolated U at the membrane's present state, before any step has made it.
+  virtual void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) = 0;
+
+  /// What a continued run needs besides the membrane's state; empty where there is nothing.
+  virtual std::span<const double> history() const { return {}; }
+  virtual void restore_history(double /*dt*/, std::span<const double> /*history*/) {}
+
+  /// Forgets the history: it belongs to other markers. The next step starts afresh.
+  virtual void restart() {}
+};
+
+/// The motion that time.markers names, for this membrane.
+std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, const vesicle::Membrane& membrane);
+
+}  // namespace vesiflow::coupling
