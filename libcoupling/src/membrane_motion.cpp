@@ -1,6 +1,7 @@
 #include "membrane_motion.h"
 
 #include "coupling/marker_integrator.h"
+#include "shape_following.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -56,6 +57,7 @@ class MaterialMotion final : public MembraneMotion {
 }  // namespace
 
 std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, const vesicle::Membrane& membrane) {
+  if (scene.time.markers == "shape_following") return make_shape_following(scene, membrane);
   return std::make_unique<MaterialMotion>(scene, membrane);
 }
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "coupling/marker_integrator.h"
-
 namespace vesiflow::coupling {
 namespace {
+
+constexpr std::string_view marker_motions[] = {"euler", "ab2", "shape_following"};
 
 template <class Enum>
 void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::initializer_list<std::string_view> names) {
@@ -93,7 +93,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
 
   v.number("time.step", scene.time.step, Range::positive());
   v.number("time.end", scene.time.end, Range::positive());
-  choice_of_name(v, "time.markers", scene.time.markers, marker_integrators);
+  choice_of_name(v, "time.markers", scene.time.markers, marker_motions);
 
   v.number("limits.local_area_error", scene.limits.local_area_error, Range::positive());
 

@@ -19,10 +19,19 @@ void check_target(const std::optional<double>& target, const char* name) {
 
 }  // namespace
 
-ConservationProjection::ConservationProjection(const SphereGrid& grid, const Conserved& conserved)
+ConservationProjection::ConservationProjection(const SphereGrid& grid, const Conserved& conserved,
+                                               int smoothing_degrees)
     : grid_(grid), conserved_(conserved) {
   check_target(conserved.volume, "target volume");
   check_target(conserved.area, "target area");
+  check_argument(smoothing_degrees >= 0, "smoothing_degrees", smoothing_degrees, ">= 0");
+  if (smoothing_degrees > 0) smoothing_.emplace(std::min(smoothing_degrees, grid.latitudes()), grid);
+}
+
+double ConservationProjection::independence(const Surface& surface) {
+  const ScalarField& h = surface.mean_curvature();
+  const double mixed = (h * surface.area_weight()).sum();
+  return 1 - mixed * mixed / (surface.area() * (h.square() * surface.area_weight()).sum());
 }
 
 /// int g_i g_j dA of the functions g = (1, 2 H).
@@ -57,6 +66,22 @@ void ConservationProjection::add(const Surface& surface, const Eigen::Vector2d& 
   }
 }
 
+/// n and 2 H n, smoothed.
+void ConservationProjection::set_directions(const Surface& surface) {
+  along_normal_ = surface.normal();
+  if (conserved_.area) {
+    along_curvature_.resize(along_normal_.rows(), 3);
+    for (int component = 0; component < 3; ++component)
+      along_curvature_.col(component) = 2 * surface.mean_curvature() * surface.normal().col(component);
+  }
+  if (!smoothing_) return;
+  for (VectorField* direction : {&along_normal_, &along_curvature_}) {
+    if (direction->size() == 0) continue;
+    smoothing_->analysis(*direction, coefficients_);
+    smoothing_->synthesis(coefficients_, *direction);
+  }
+}
+
 void ConservationProjection::correct_velocity(const Surface& surface, double dt, VectorField& velocity) {
   check_argument(std::isfinite(dt) && dt > 0, "dt", dt, "finite and > 0");
   check_markers(velocity, "velocity", surface.grid().size());
@@ -73,6 +98,7 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
   check_markers(displacement, "displacement", surface.grid().size());
   if (!conserved_.volume && !conserved_.area) return;
   if (!moved_) moved_.emplace(grid_);
+  set_directions(surface);
   // The matrix is that of the surface before the move: the error falls by a factor of the size of D in each iteration.
   constexpr int max_iterations = 50;
   constexpr double tolerance = 1e-13;
@@ -94,7 +120,9 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
     if (error < tolerance) return;
     if (!(error < divergence * smallest_error)) break;
     smallest_error = std::min(smallest_error, error);
-    add(surface, multipliers(surface, missing), displacement);
+    const Eigen::Vector2d by = multipliers(surface, missing);
+    displacement += by[0] * along_normal_;
+    if (by[1] != 0) displacement += by[1] * along_curvature_;
   }
   throw std::domain_error(
       "corrections of the displacement do not lead to the volume and area that were asked for: the displacement is too "

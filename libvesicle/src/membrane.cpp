@@ -100,6 +100,15 @@ void Membrane::advance(const VectorField& new_positions, const VectorField& velo
   positions_ = new_positions;
 }
 
+void Membrane::move_to(const VectorField& positions, const ScalarField& strain) {
+  check_markers(strain, "strain", positions_.rows());
+  check_finite(strain, "a strain");
+  surface_.update(positions, detail());
+  positions_ = positions;
+  target_areas_ = surface_.area_weight() * (-strain).exp();
+  initial_areas_ = target_areas_ * (initial_area_ / target_areas_.sum());
+}
+
 RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) {
   update_geometry();
   const RedistributionReport report = redistribution.redistribute(surface_);

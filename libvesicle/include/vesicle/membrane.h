@@ -85,6 +85,12 @@ class Membrane {
   /// TargetAreaUpdate::apply. The membrane is then as it was.
   void advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered, double dt);
 
+  /// Takes positions and the log strain ln(dA/dA0) there, shape (markers), for a mesh that does not move with the material, and
+  /// updates the geometry: the target areas become dA e^{-strain}. As markers are no labels then, the initial areas are these
+  /// too, scaled to their old total.
+  /// @throws as update_geometry(), and std::domain_error if a strain is not finite; the membrane's state is then as it was.
+  void move_to(const VectorField& positions, const ScalarField& strain);
+
   /// Moves the markers along the membrane to a better mesh, if there is one, with the membrane's own fields: the strains
   /// ln(dA/dA0) and ln(dA/dA(0)) stay with the material, so tension, max_local_area_error and max_label_area_error mean what they
   /// did before; both target and initial areas keep their totals. A "label" is then a material point and no longer a marker
