@@ -103,8 +103,7 @@ std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force
   solver_->viscous_operator().apply_to_points(u.points(), residual_.u());
   add_gradient(grid, correction_.pressure, residual_.u());
   scale_and_add(-1.0, force.unknowns(), residual_.u());
-  for (int component = 0; component < 3; ++component)
-    add_constant(uniform_force[component], residual_.u()[component]);
+  for (int component = 0; component < 3; ++component) add_constant(uniform_force[component], residual_.u()[component]);
   negative_divergence(grid, u.points(), residual_.p());
   scale(-1.0, residual_.p());
   return grid.has_walls() ? std::array<double, 3>{} : sums_.remove_means(residual_.u());
