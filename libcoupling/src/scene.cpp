@@ -133,19 +133,20 @@ void check_vesicle_keys(const Scene& scene, std::size_t i, const std::string& na
 
 void check_inside_box(const Scene& scene, std::size_t i, const std::string& name) {
   const vesicle::VectorField markers = checked_markers(scene, i, name);
+  const double distance = wall_distance(DeltaKernel::smoothed_four_point);
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = static_cast<std::size_t>(axis);
     if (scene.domain.periodic[u]) continue;
     const double h = (scene.domain.upper[u] - scene.domain.lower[u]) / scene.domain.cells[u];
-    const double low = scene.domain.lower[u] + MarkerTransfer::wall_distance * h;
-    const double high = scene.domain.upper[u] - MarkerTransfer::wall_distance * h;
+    const double low = scene.domain.lower[u] + distance * h;
+    const double high = scene.domain.upper[u] - distance * h;
     const double from = markers.col(axis).minCoeff(), to = markers.col(axis).maxCoeff();
     if (from < low || to > high)
       throw SceneError(
           fmt::format("{}: vesicles.{}.centre = [{:g}, {:g}, {:g}]: the vesicle reaches from {:.4g} to {:.4g} "
                       "along {}; it must stay within [{:.4g}, {:.4g}], {} grid spacings off the walls",
                       name, i, scene.vesicles[i].centre[0], scene.vesicles[i].centre[1], scene.vesicles[i].centre[2],
-                      from, to, "xyz"[u], low, high, MarkerTransfer::wall_distance));
+                      from, to, "xyz"[u], low, high, distance));
   }
 }
 
