@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "duct_series.h"
+#include "fluid/duct_series.h"
 #include "fluid/field.h"
 #include "steady_run.h"
 

@@ -58,7 +58,7 @@ nlohmann::ordered_json to_json(const Duct& duct, DuctMethod method, const std::v
 }
 
 std::string cross_section(const Duct& duct, const DuctFlow& flow) {
-  const DuctSeries series(duct.d, duct.e);
+  const vesiflow::fluid::DuctSeries series(duct.d, duct.e);
   const auto& u = flow.velocity.x;
   std::string text = "y,z,u,series\n";
   for (int k = 0; k < flow.cells[2]; ++k)

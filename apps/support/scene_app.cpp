@@ -8,6 +8,7 @@
 
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
+#include "coupling/flow.h"
 #include "coupling/plan.h"
 #include "coupling/run.h"
 #include "passive_waiting.h"
@@ -45,11 +46,9 @@ Scene scene_of(const Arguments& arguments) {
 
 void require_flow(const SceneApp& app, const Scene& scene, const std::string& file) {
   flow_of(scene);  // refuses what only a program can give
-  if (scene.flow.type == app.flow) return;
-  const bool shear = app.flow == FlowType::shear;
-  throw SceneError(fmt::format("{}: flow.type = \"{}\": {} computes \"{}\" only; use the app {}", file,
-                               shear ? "rest" : "shear", app.name, shear ? "shear" : "rest",
-                               shear ? "relaxation" : "shear_flow"));
+  if (!app.flow || scene.flow.type == *app.flow) return;
+  throw SceneError(fmt::format("{}: flow.type: {} computes \"{}\" only; use the app vesicles, which computes any", file,
+                               app.name, *app.flow == FlowType::shear ? "shear" : "rest"));
 }
 
 std::filesystem::path directory_of(const Arguments& arguments) {

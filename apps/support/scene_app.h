@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "coupling/scene.h"
@@ -8,7 +9,7 @@
 struct SceneApp {
   std::string name;
   std::string description;
-  vesiflow::coupling::FlowType flow;  ///< the flow.type a scene of this app must have
+  std::optional<vesiflow::coupling::FlowType> flow;  ///< the flow.type a scene of this app must have, if it must
 };
 
 /// The whole program: reads the command line and the scene, prints the plan or runs it. Returns the exit code.

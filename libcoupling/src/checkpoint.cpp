@@ -99,26 +99,26 @@ bool same_surface(const std::optional<vesicle::Coefficients>& a, const std::opti
 }
 
 void check_same_scene(const Scene& written, const Scene& now, const std::filesystem::path& path) {
-  const auto before = scene_values(written), after = scene_values(now);
-  for (const auto& [key, value] : before) {
+  if (written.vesicles.size() != now.vesicles.size())
+    throw SceneError(fmt::format("{}: was written with {} vesicles, this scene has {}", path.string(),
+                                 written.vesicles.size(), now.vesicles.size()));
+  auto before = scene_values(written), after = scene_values(now);
+  for (const auto& [key, value] : before) after.try_emplace(key, "absent");
+  for (const auto& [key, other_value] : after) {
     if (may_differ(key)) continue;
-    const auto other = after.find(key);
-    const std::string other_value = other == after.end() ? "absent" : other->second;
+    const std::string& value = before.try_emplace(key, "absent").first->second;
     if (other_value != value)
       throw SceneError(
           fmt::format("{}: was written with {} = {}, this scene has {}; a restart keeps everything but title, "
                       "time.end, limits and output",
                       path.string(), key, value, other_value));
   }
-  for (std::size_t i = 0; i < std::min(written.vesicles.size(), now.vesicles.size()); ++i)
+  for (std::size_t i = 0; i < written.vesicles.size(); ++i)
     if (!same_surface(written.vesicles[i].surface, now.vesicles[i].surface))
       throw SceneError(
           fmt::format("{}: was written with another surface in vesicles.{}.file; restart without the scene "
                       "file, or give back the old file",
                       path.string(), i));
-  if (after.size() > before.size())
-    throw SceneError(fmt::format("{}: was written with {} vesicles, this scene has {}", path.string(),
-                                 written.vesicles.size(), now.vesicles.size()));
 }
 
 std::string surface_name(std::size_t vesicle) {
@@ -182,9 +182,10 @@ SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::
   read_velocity(file, "/velocity", state.velocity, path);
   read_velocity(file, "/previous_velocity", state.previous_velocity, path);
   read_field(file, "/pressure", state.pressure, path);
-  const Eigen::Index markers = 2L * scene.mesh.latitudes * scene.mesh.latitudes;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
-    state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), markers, path));
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    const Eigen::Index latitudes = scene.latitudes(i);
+    state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
+  }
   return state;
 }
 

@@ -1,46 +1,71 @@
 #include "coupling/delta_kernel.h"
 
-#include <cmath>
-#include <numbers>
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "delta_functions.h"
 
 namespace vesiflow::coupling {
-namespace {
 
-constexpr double root3 = std::numbers::sqrt3;
-constexpr double inner_constant = 17.0 / 48.0 + root3 * std::numbers::pi / 108.0;
-constexpr double outer_constant = 55.0 / 48.0 - root3 * std::numbers::pi / 108.0;
-
-// The value at |r| = t in [0, 1], given s = sqrt(1 + 12 t - 12 t^2) and a = asin(sqrt(3) (2 t - 1) / 2).
-double inner(double t, double s, double a) {
-  return inner_constant + 0.25 * t * (1.0 - t) + (1.0 - 2.0 * t) / 16.0 * s - root3 / 12.0 * a;
+DeltaKernel delta_kernel(std::string_view name) {
+  const auto found = std::find(delta_kernel_names.begin(), delta_kernel_names.end(), name);
+  if (found != delta_kernel_names.end()) return static_cast<DeltaKernel>(found - delta_kernel_names.begin());
+  std::string message = "delta kernel \"" + std::string(name) + "\": must be one of";
+  for (const std::string_view known : delta_kernel_names) message += " \"" + std::string(known) + '"';
+  throw std::invalid_argument(message);
 }
 
-// The value at |r| = 1 + t, with the same s and a.
-double outer(double t, double s, double a) {
-  const double r = 1.0 + t;
-  return outer_constant - 13.0 / 12.0 * r + 0.25 * r * r + (2.0 * t - 1.0) / 48.0 * s + root3 / 36.0 * a;
+Interpolation interpolation(DeltaKernel kernel) {
+  return with_functions_of(kernel, [](auto functions) {
+    using Functions = decltype(functions);
+    return std::is_same_v<typename Functions::Normal, typename Functions::Tangential>
+               ? Interpolation::plain
+               : Interpolation::divergence_preserving;
+  });
 }
 
-double root(double t) {
-  return std::sqrt(1.0 + 12.0 * t * (1.0 - t));
-}
-double angle(double t) {
-  return std::asin(0.5 * root3 * (2.0 * t - 1.0));
+int support_width(DeltaKernel kernel, Direction direction) {
+  return with_function_of(kernel, direction, [](auto function) { return decltype(function)::width; });
 }
 
-}  // namespace
-
-double smoothed_delta(double r) {
-  const double distance = std::abs(r);
-  if (distance < 1.0) return inner(distance, root(distance), angle(distance));
-  if (distance < 2.0) return outer(distance - 1.0, root(distance - 1.0), angle(distance - 1.0));
-  return 0.0;
+double wall_distance(DeltaKernel kernel) {
+  const int faces = support_width(kernel, Direction::normal), centres = support_width(kernel, Direction::tangential);
+  return 0.5 * (std::max(faces - 1, centres) - 1);  // faces lie on the wall, centres half a spacing off it
 }
 
-std::array<double, 4> smoothed_delta_weights(double t) {
-  const double s = root(t);
-  const double a = angle(t);
-  return {outer(t, s, a), inner(t, s, a), inner(1.0 - t, s, -a), outer(1.0 - t, s, -a)};
+double delta(DeltaKernel kernel, double r, Direction direction) {
+  return with_function_of(kernel, direction, [&](auto function) { return value_of<decltype(function)>(r); });
+}
+
+void delta_weights(DeltaKernel kernel, double t, std::span<double> weights, Direction direction) {
+  with_function_of(kernel, direction, [&](auto function) {
+    constexpr int width = decltype(function)::width;
+    if (weights.size() != width)
+      throw std::invalid_argument("delta_weights: room for " + std::to_string(weights.size()) + " weights; \"" +
+                                  std::string(name(kernel)) + "\" has " + std::to_string(width));
+    std::ranges::copy(function.weights(t), weights.begin());
+  });
+}
+
+double thickening(DeltaKernel kernel) {
+  switch (kernel) {
+    case DeltaKernel::three_point:
+      return 0.3116070201871157;
+    case DeltaKernel::four_point:
+      return 0.4136911152469348;
+    case DeltaKernel::smoothed_four_point:
+      return 0.3513514055480362;
+    case DeltaKernel::six_point:
+      return 0.4805975053861579;
+    case DeltaKernel::composite_bspline_32:
+      return 7.0 / 30.0;
+    case DeltaKernel::composite_bspline_43:
+      return 239.0 / 840.0;
+    case DeltaKernel::composite_bspline_54:
+      return 0.3278218694885362;
+  }
+  throw std::invalid_argument("delta kernel: not one of the enumeration");
 }
 
 }  // namespace vesiflow::coupling

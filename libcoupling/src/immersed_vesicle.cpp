@@ -6,11 +6,11 @@
 namespace vesiflow::coupling {
 namespace {
 
-vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
+vesicle::MembraneParameters membrane_parameters(const Scene& scene, std::size_t i) {
   vesicle::MembraneParameters parameters;
-  parameters.capillary_number = scene.membrane.capillary_number;
-  parameters.sigma0 = scene.membrane.sigma0;
-  parameters.spontaneous_curvature = scene.membrane.spontaneous_curvature;
+  parameters.capillary_number = scene.capillary_number(i);
+  parameters.sigma0 = scene.sigma0(i);
+  parameters.spontaneous_curvature = scene.spontaneous_curvature(i);
   parameters.tension_law = scene.membrane.tension_law;
   parameters.tension_form = scene.membrane.tension_form;
   parameters.area = scene.membrane.area;
@@ -30,14 +30,14 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene) {
 
 }  // namespace
 
-int moving_degrees(const Scene& scene) {
+int moving_degrees(const Scene& scene, std::size_t i) {
   const int degrees = scene.mesh.normal_degrees;
-  return degrees > 0 ? degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
+  return degrees > 0 ? degrees : vesicle::two_thirds_degrees(scene.latitudes(i));
 }
 
 ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid)
-    : membrane(initial_markers(scene.vesicles[number], scene.mesh.latitudes), scene.mesh.latitudes,
-               membrane_parameters(scene)),
+    : membrane(initial_markers(scene.vesicles[number], scene.latitudes(number)), scene.latitudes(number),
+               membrane_parameters(scene, number)),
       transfer(grid),
       motion(make_membrane_motion(scene, membrane)) {
   const Eigen::Index markers = membrane.positions().rows();

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "coupling/marker_transfer.h"
 #include "coupling/scene.h"
@@ -28,9 +29,13 @@ struct ImmersedVesicle {
   /// Velocities at markers that no step has moved yet.
   void interpolate(double dt, const fluid::FaceVector& velocity);
 
+  /// Force per area on the fluid (markers x 3).
+  const vesicle::VectorField& force() const { return total_force ? *total_force : membrane.force(); }
+
   vesicle::Membrane membrane;
   MarkerTransfer transfer;
   MarkerVelocities velocities;
+  std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
   std::int64_t redistributions = 0;
   bool is_current = false;  ///< whether geometry and forces are those of the membrane's state
@@ -41,7 +46,7 @@ struct ImmersedVesicle {
   double* interpolation_seconds_ = nullptr;
 };
 
-/// Degrees of the velocity that shapes the membranes.
-int moving_degrees(const Scene& scene);
+/// Degrees of the velocity that shapes the membrane of vesicle number i.
+int moving_degrees(const Scene& scene, std::size_t i);
 
 }  // namespace vesiflow::coupling

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "coupling/errors.h"
+#include "coupling/overlap.h"
+#include "periodic_images.h"
 #include "vesicle/shapes.h"
 #include "vesicle/sphere_grid.h"
 #include "vesicle/star_shaped_fit.h"
@@ -16,32 +18,6 @@
 
 namespace vesiflow::coupling {
 namespace {
-
-// Solid angle under which a closed surface is seen from a point, over 4 pi: 1 inside, 0 outside, about 1/2 on it.
-double winding_number(const vesicle::Surface& surface, const vesicle::Vector3& point) {
-  double sum = 0.0;
-  for (Eigen::Index m = 0; m < surface.positions().rows(); ++m) {
-    const vesicle::Vector3 r = surface.positions().row(m).matrix().transpose() - point;
-    const double distance = r.norm();
-    if (distance == 0.0) continue;
-    sum += r.dot(surface.normal().row(m).matrix()) * surface.area_weight()(m) / (distance * distance * distance);
-  }
-  return sum / (4.0 * std::numbers::pi);
-}
-
-bool boxes_meet(const vesicle::VectorField& a, const vesicle::VectorField& b) {
-  return (a.colwise().minCoeff() <= b.colwise().maxCoeff()).all() &&
-         (b.colwise().minCoeff() <= a.colwise().maxCoeff()).all();
-}
-
-// Below the 1/2 of a point on the surface, so that touching counts as overlapping.
-constexpr double overlap_threshold = 0.25;
-
-bool meets(const vesicle::Surface& surface, const vesicle::VectorField& markers) {
-  for (Eigen::Index m = 0; m < markers.rows(); ++m)
-    if (winding_number(surface, markers.row(m).matrix().transpose()) > overlap_threshold) return true;
-  return false;
-}
 
 vesicle::Coefficients fitted_mesh(const std::string& file, int degrees, const std::string& key) {
   const vesicle::StarShapedFit fit = vesicle::fit_star_shaped(vesicle::read_triangle_mesh(file), degrees);
@@ -74,10 +50,10 @@ void load_surfaces(Scene& scene, const std::string& name) {
 vesicle::VectorField checked_markers(const Scene& scene, std::size_t i, const std::string& name) {
   const VesicleScene& vesicle = scene.vesicles[i];
   try {
-    vesicle::VectorField markers = initial_markers(vesicle, scene.mesh.latitudes);
+    vesicle::VectorField markers = initial_markers(vesicle, scene.latitudes(i));
     // The others are always surfaces.
     const bool is_free_form = vesicle.shape == Shape::harmonics || vesicle.surface;
-    if (is_free_form) vesicle::Surface(scene.mesh.latitudes).update(markers);
+    if (is_free_form) vesicle::Surface(scene.latitudes(i)).update(markers);
     return markers;
   } catch (const std::logic_error& error) {
     const char* key = vesicle.file ? "file" : vesicle.shape == Shape::harmonics ? "harmonics" : "shape";
@@ -116,20 +92,23 @@ vesicle::VectorField initial_markers(const VesicleScene& scene, int latitudes) {
 }
 
 void check_apart(const Scene& scene, const std::string& name) {
+  const fluid::Grid grid(scene.domain.lower, scene.domain.upper, scene.domain.cells, scene.domain.periodic);
   std::vector<vesicle::VectorField> markers;
-  for (const VesicleScene& vesicle : scene.vesicles) markers.push_back(initial_markers(vesicle, scene.mesh.latitudes));
-  for (std::size_t a = 0; a < markers.size(); ++a) {
-    vesicle::Surface surface(scene.mesh.latitudes);
-    bool updated = false;
-    for (std::size_t b = 0; b < markers.size(); ++b) {
-      if (a == b || !boxes_meet(markers[a], markers[b])) continue;
-      if (!updated) surface.update(markers[a]);
-      updated = true;
-      if (meets(surface, markers[b]))
-        throw SceneError(fmt::format("{}: vesicles.{} and vesicles.{} overlap; move one of them (centre)", name,
-                                     std::min(a, b), std::max(a, b)));
-    }
+  std::vector<vesicle::Surface> surfaces;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
+    surfaces.emplace_back(scene.latitudes(i));
+    surfaces.back().update(markers.back());
   }
+  for (std::size_t a = 0; a < markers.size(); ++a)
+    for (std::size_t b = a; b < markers.size(); ++b)
+      for_each_image(grid, Bounds(markers[a]), Bounds(markers[b]), 0.0, [&](const vesicle::Vector3& shift) {
+        const bool is_itself = a == b && shift.isZero(0.0);
+        if (is_itself || !(overlap(surfaces[a], markers[b], shift) || overlap(surfaces[b], markers[a], -shift))) return;
+        const char* image = shift.isZero(0.0) ? "" : " (repeated along a periodic axis)";
+        throw SceneError(fmt::format("{}: vesicles.{} and vesicles.{}{} overlap; move one of them (centre){}", name, a,
+                                     b, image, a == b ? " or enlarge the box" : ""));
+      });
 }
 
 }  // namespace vesiflow::coupling

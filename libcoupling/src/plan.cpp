@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "coupling/flow.h"
 #include "coupling/simulation.h"
 #include "fluid/elliptic_solver.h"
 #include "vesicle/mesh_control.h"
@@ -43,20 +45,46 @@ class Plan {
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
-  const auto vesicles = static_cast<double>(scene.vesicles.size());
+  double membranes = 0.0;
+  int coarsest = scene.latitudes(0), finest = scene.latitudes(0);
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    membranes += membrane_bytes(scene.latitudes(i));
+    coarsest = std::min(coarsest, scene.latitudes(i));
+    finest = std::max(finest, scene.latitudes(i));
+  }
   const auto fluid_bytes =
       static_cast<double>(fluid::NavierStokes::estimate_memory(grid_of(scene), fluid_parameters_of(scene)));
   plan.head("Resolution");
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
-  plan.line("membranes", "{} of {} x {} markers, spacing about {:.2f} h at the equator of a sphere",
-            scene.vesicles.size(), scene.mesh.latitudes, 2 * scene.mesh.latitudes, M_PI / scene.mesh.latitudes / h);
+  plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
+            scene.vesicles.size(), coarsest, 2 * coarsest,
+            finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
   plan.line("time", "{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
   plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below 7 to 8{}", scene.tension_number(),
             scene.tension_number() > 7.0 ? "  <- WARNING: beyond it" : "");
-  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})",
-            1e-6 * (fluid_bytes + vesicles * membrane_bytes(scene.mesh.latitudes)), 1e-6 * fluid_bytes,
-            1e-6 * vesicles * membrane_bytes(scene.mesh.latitudes));
+  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})", 1e-6 * (fluid_bytes + membranes),
+            1e-6 * fluid_bytes, 1e-6 * membranes);
   plan.line("threads", "{}", threads);
+}
+
+// What a vesicle has of its own; empty where it has nothing.
+std::string own_values(const VesicleScene& vesicle) {
+  std::string text;
+  const auto add = [&](const char* key, const auto& value) {
+    if (value) text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ", key, static_cast<double>(*value));
+  };
+  add("capillary_number", vesicle.capillary_number);
+  add("sigma0", vesicle.sigma0);
+  add("spontaneous_curvature", vesicle.spontaneous_curvature);
+  add("latitudes", vesicle.latitudes);
+  if (vesicle.density_difference != 0.0) add("density_difference", &vesicle.density_difference);
+  return text;
+}
+
+void describe_vesicles(Plan& plan, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    if (const std::string own = own_values(scene.vesicles[i]); !own.empty())
+      plan.line(fmt::format("vesicle {} has its own", i).c_str(), "{}", own);
 }
 
 std::string describe_bending(const Scene& scene) {
@@ -80,7 +108,7 @@ std::string describe_solver(const fluid::EllipticProblem& problem, SolverChoice 
 }
 
 void describe_fluid(Plan& plan, const Scene& scene) {
-  const fluid::Grid grid{scene.domain.lower, scene.domain.upper, scene.domain.cells};
+  const fluid::Grid grid = grid_of(scene);
   const bool steps_in_time = scene.fluid.inertia != fluid::Inertia::none;
   plan.part(scene.fluid.inertia == fluid::Inertia::full, "convection", "skew-symmetric, extrapolated",
             "fluid.inertia is not \"full\"");
@@ -100,13 +128,25 @@ void describe_fluid(Plan& plan, const Scene& scene) {
             "fluid.inertia is not \"none\"");
 }
 
+void describe_external_forces(Plan& plan, const Scene& scene) {
+  const auto& g = scene.gravity.acceleration;
+  const bool pulls = g != std::array<double, 3>{};
+  const bool differs = std::ranges::any_of(scene.vesicles, [](const auto& v) { return v.density_difference != 0.0; });
+  plan.part(pulls && differs, "buoyancy", fmt::format("gravity ({:g}, {:g}, {:g})", g[0], g[1], g[2]),
+            pulls ? "all densities are equal" : "gravity.acceleration = [0, 0, 0]");
+  plan.part(scene.repulsion.range > 0.0, "repulsion",
+            fmt::format("within {:g} of another vesicle{}, up to {:g}", scene.repulsion.range,
+                        scene.repulsion.walls ? " or a wall" : "", scene.repulsion.strength),
+            "repulsion.range = 0");
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
-  const bool tension = scene.membrane.sigma0 > 0.0;
-  const bool shear = scene.flow.type == FlowType::shear;
+  const bool tension = scene.tension_number() > 0.0;
+  const bool moving = scene.flow.type != FlowType::rest;
   const int normal =
-      scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(scene.mesh.latitudes);
+      scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(scene.latitudes(0));
   plan.head("Each step");
-  plan.part(true, "geometry", fmt::format("spherical harmonics of {} degrees", scene.mesh.latitudes), "");
+  plan.part(true, "geometry", "spherical harmonics, as many degrees as latitudes", "");
   plan.part(true, "bending", describe_bending(scene), "");
   plan.part(
       tension, "tension",
@@ -120,9 +160,16 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
             fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
             "membrane.volume is not \"penalty\"");
+  describe_external_forces(plan, scene);
   plan.part(true, "spread, interpolate", "smoothed 4-point delta, in the bounding box of the markers", "");
   describe_fluid(plan, scene);
-  plan.part(shear, "wall velocity", "steady shear, evaluated once", "flow.type = \"rest\"");
+  plan.part(moving, "wall velocity", scene.flow.type == FlowType::custom ? "of a program" : flow_of(scene).description,
+            "flow.type = \"rest\"");
+  if (scene.flow.type != FlowType::custom) {
+    const double driving = scene.domain.periodic[0] ? flow_of(scene).driving_force : 0.0;
+    plan.part(driving != 0.0, "driving force", fmt::format("uniform, {:.4g} along x", driving),
+              "walls drive the flow, or nothing does");
+  }
   plan.part(true, "mesh control",
             fmt::format("{}: normal velocity {} degrees, tangential {}",
                         scene.mesh.filter == vesicle::FilterOrder::velocity_first
@@ -163,6 +210,7 @@ std::string describe_plan(const Scene& scene, int threads) {
   Plan plan;
   if (!scene.title.empty()) plan.head(scene.title);
   describe_resolution(plan, scene, threads);
+  describe_vesicles(plan, scene);
   describe_step(plan, scene);
   describe_output(plan, scene);
   return plan.text();

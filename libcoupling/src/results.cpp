@@ -34,7 +34,7 @@ void append_text(const std::filesystem::path& file, const std::string& text) {
   if (!written) throw FileError(fmt::format("{}: cannot be written: disk full, or no permission", file.string()));
 }
 
-std::string column_names(const vesicle::Diagnostics& diagnostics) {
+std::string column_names(const vesicle::Diagnostics& diagnostics, bool has_distances) {
   std::string names = "step,time,vesicle";
   visit_record(diagnostics, [&](std::string_view name, const double*, int length) {
     if (length == 1)
@@ -44,7 +44,7 @@ std::string column_names(const vesicle::Diagnostics& diagnostics) {
     else
       names += ",semi_axis_1,semi_axis_2,semi_axis_3";
   });
-  return names + "\n";
+  return names + (has_distances ? ",min_distance\n" : "\n");
 }
 
 std::string row_of(const vesicle::Diagnostics& diagnostics) {
@@ -52,7 +52,7 @@ std::string row_of(const vesicle::Diagnostics& diagnostics) {
   visit_record(diagnostics, [&](std::string_view, const double* values, int length) {
     for (int i = 0; i < length; ++i) row += std::isfinite(values[i]) ? fmt::format(",{:.10g}", values[i]) : ",";
   });
-  return row + "\n";
+  return row;
 }
 
 }  // namespace
@@ -109,10 +109,14 @@ void DiagnosticsTable::rewind(long step) {
 
 void DiagnosticsTable::write(Simulation& simulation) {
   const std::vector<vesicle::Diagnostics> all = simulation.measure();
+  const bool has_distances = all.size() > 1;
+  const std::vector<double> distances = has_distances ? simulation.nearest_distances() : std::vector<double>{};
   std::string text;
-  if (!std::filesystem::exists(file_)) text = column_names(all.front());
-  for (std::size_t i = 0; i < all.size(); ++i)
+  if (!std::filesystem::exists(file_)) text = column_names(all.front(), has_distances);
+  for (std::size_t i = 0; i < all.size(); ++i) {
     text += fmt::format("{},{:.10g},{}", simulation.steps(), simulation.time(), i) + row_of(all[i]);
+    text += has_distances ? fmt::format(",{:.10g}\n", distances[i]) : "\n";
+  }
   append_text(file_, text);
   last_step_ = simulation.steps();
 }

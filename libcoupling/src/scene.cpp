@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupling/errors.h"
+#include "coupling/flow.h"
 #include "coupling/marker_transfer.h"
 #include "initial_shape.h"
 
@@ -15,7 +16,7 @@ namespace {
 // Above g = 7 to 8 the explicit tension is unstable (marker Euler); twice that is not worth starting.
 constexpr double largest_tension_number = 16.0;
 // A marker should not turn by more than about 15 degrees in a step.
-constexpr double largest_shear_per_step = 0.25;
+constexpr double largest_turn_per_step = 0.25;
 
 void check_domain(const Scene& scene, const std::string& name) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -29,19 +30,36 @@ void check_time(const Scene& scene, const std::string& name) {
   if (scene.time.step > scene.time.end)
     throw SceneError(
         fmt::format("{}: time.step = {:g}: must not be above time.end = {:g}", name, scene.time.step, scene.time.end));
-  if (scene.flow.type == FlowType::shear && std::abs(scene.flow.rate) * scene.time.step > largest_shear_per_step)
-    throw SceneError(
-        fmt::format("{}: time.step = {:g}: flow.rate times time.step must be <= {:g}, so time.step <= {:g}", name,
-                    scene.time.step, largest_shear_per_step, largest_shear_per_step / std::abs(scene.flow.rate)));
   if (scene.time.markers != "shape_following" && scene.tension_number() > largest_tension_number)
     throw SceneError(fmt::format(
         "{}: time.step = {:g}: g = time.step membrane.sigma0/(4 h) = {:.3g} is far beyond the stability limit of the "
-        "explicit tension (7 to 8); take time.step <= {:.3g} or membrane.sigma0 <= {:.4g}",
+        "explicit tension (7 to 8); take time.step <= {:.3g} or sigma0 <= {:.4g}",
         name, scene.time.step, scene.tension_number(), scene.time.step * 7.0 / scene.tension_number(),
-        scene.membrane.sigma0 * 7.0 / scene.tension_number()));
+        7.0 * 4.0 * scene.spacing() / scene.time.step));
   if (static_cast<double>(scene.steps()) > 1e9)
     throw SceneError(fmt::format("{}: time.end = {:g}: that is {} steps of time.step = {:g}; at most 1e9", name,
                                  scene.time.end, scene.steps(), scene.time.step));
+}
+
+void check_flow(const Scene& scene, const std::string& name) {
+  if (scene.flow.type == FlowType::custom) return;
+  const Flow flow = flow_of(scene);
+  const auto& periodic = scene.domain.periodic;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (periodic[axis] && !flow.may_be_periodic[axis])
+      throw SceneError(
+          fmt::format("{}: domain.periodic = [{}, {}, {}]: the flow of flow.type does not repeat along {}; allowed is "
+                      "[{}, {}, {}], "
+                      "or false instead of true",
+                      name, periodic[0], periodic[1], periodic[2], "xyz"[axis], flow.may_be_periodic[0],
+                      flow.may_be_periodic[1], flow.may_be_periodic[2]));
+  const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency);
+  if (fastest * scene.time.step > largest_turn_per_step)
+    throw SceneError(
+        fmt::format("{}: time.step = {:g}: the flow turns or changes at a rate of up to {:.4g}; that times time.step "
+                    "must be <= {:g}, "
+                    "so time.step <= {:.4g}",
+                    name, scene.time.step, fastest, largest_turn_per_step, largest_turn_per_step / fastest));
 }
 
 void check_physics(const Scene& scene, const std::string& name) {
@@ -50,12 +68,21 @@ void check_physics(const Scene& scene, const std::string& name) {
         fmt::format("{}: fluid.viscosity_ratio = {:g}: this version computes equal viscosities only; "
                     "allowed is 1",
                     name, scene.fluid.viscosity_ratio));
-  if (scene.mesh.normal_degrees > scene.mesh.latitudes)
-    throw SceneError(fmt::format("{}: mesh.normal_degrees = {}: must be <= mesh.latitudes = {}", name,
-                                 scene.mesh.normal_degrees, scene.mesh.latitudes));
-  if (scene.mesh.tangential_degrees > scene.mesh.latitudes)
-    throw SceneError(fmt::format("{}: mesh.tangential_degrees = {}: must be <= mesh.latitudes = {}", name,
-                                 scene.mesh.tangential_degrees, scene.mesh.latitudes));
+}
+
+// Where the number of latitudes of vesicle i was said.
+std::string latitudes_key(const Scene& scene, std::size_t i) {
+  return scene.vesicles[i].latitudes ? fmt::format("vesicles.{}.latitudes", i) : "mesh.latitudes";
+}
+
+void check_degrees(const Scene& scene, std::size_t i, const std::string& name) {
+  const auto check = [&](const char* key, int degrees) {
+    if (degrees > scene.latitudes(i))
+      throw SceneError(fmt::format("{}: {} = {}: must be <= {} = {}", name, key, degrees, latitudes_key(scene, i),
+                                   scene.latitudes(i)));
+  };
+  check("mesh.normal_degrees", scene.mesh.normal_degrees);
+  check("mesh.tangential_degrees", scene.mesh.tangential_degrees);
 }
 
 void check_tension(const Scene& scene, const std::string& name) {
@@ -68,7 +95,9 @@ void check_tension(const Scene& scene, const std::string& name) {
                     name, *scene.membrane.g, scene.membrane.sigma0, meant));
 }
 
-void check_vesicle_keys(const VesicleScene& vesicle, int latitudes, const std::string& key, const std::string& name) {
+void check_vesicle_keys(const Scene& scene, std::size_t i, const std::string& name) {
+  const VesicleScene& vesicle = scene.vesicles[i];
+  const std::string key = fmt::format("vesicles.{}", i);
   const bool spheroid = vesicle.shape == Shape::prolate || vesicle.shape == Shape::oblate;
   const int given = (vesicle.reduced_volume ? 1 : 0) + (vesicle.aspect_ratio ? 1 : 0);
   if (spheroid && given != 1)
@@ -94,9 +123,9 @@ void check_vesicle_keys(const VesicleScene& vesicle, int latitudes, const std::s
         fmt::format("{}: {}.file = \"{}\": has not been read; a program that fills a scene itself sets "
                     "VesicleScene::surface",
                     name, key, *vesicle.file));
-  if (vesicle.fit_degrees && *vesicle.fit_degrees >= latitudes)
-    throw SceneError(fmt::format("{}: {}.fit_degrees = {}: must be below mesh.latitudes = {}", name, key,
-                                 *vesicle.fit_degrees, latitudes));
+  if (vesicle.fit_degrees && *vesicle.fit_degrees >= scene.latitudes(i))
+    throw SceneError(fmt::format("{}: {}.fit_degrees = {}: must be below {} = {}", name, key, *vesicle.fit_degrees,
+                                 latitudes_key(scene, i), scene.latitudes(i)));
   const auto& a = vesicle.rotation_axis;
   if (!(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > 0.0))
     throw SceneError(fmt::format("{}: {}.rotation_axis = [0, 0, 0]: must not vanish", name, key));
@@ -104,18 +133,20 @@ void check_vesicle_keys(const VesicleScene& vesicle, int latitudes, const std::s
 
 void check_inside_box(const Scene& scene, std::size_t i, const std::string& name) {
   const vesicle::VectorField markers = checked_markers(scene, i, name);
+  const double distance = wall_distance(DeltaKernel::smoothed_four_point);
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = static_cast<std::size_t>(axis);
+    if (scene.domain.periodic[u]) continue;
     const double h = (scene.domain.upper[u] - scene.domain.lower[u]) / scene.domain.cells[u];
-    const double low = scene.domain.lower[u] + MarkerTransfer::wall_distance * h;
-    const double high = scene.domain.upper[u] - MarkerTransfer::wall_distance * h;
+    const double low = scene.domain.lower[u] + distance * h;
+    const double high = scene.domain.upper[u] - distance * h;
     const double from = markers.col(axis).minCoeff(), to = markers.col(axis).maxCoeff();
     if (from < low || to > high)
       throw SceneError(
           fmt::format("{}: vesicles.{}.centre = [{:g}, {:g}, {:g}]: the vesicle reaches from {:.4g} to {:.4g} "
                       "along {}; it must stay within [{:.4g}, {:.4g}], {} grid spacings off the walls",
                       name, i, scene.vesicles[i].centre[0], scene.vesicles[i].centre[1], scene.vesicles[i].centre[2],
-                      from, to, "xyz"[u], low, high, MarkerTransfer::wall_distance));
+                      from, to, "xyz"[u], low, high, distance));
   }
 }
 
@@ -129,7 +160,25 @@ double Scene::spacing() const {
 }
 
 double Scene::tension_number() const {
-  return time.step * membrane.sigma0 / (4.0 * spacing());
+  double stiffest = vesicles.empty() ? membrane.sigma0 : 0.0;
+  for (std::size_t i = 0; i < vesicles.size(); ++i) stiffest = std::max(stiffest, sigma0(i));
+  return time.step * stiffest / (4.0 * spacing());
+}
+
+double Scene::capillary_number(std::size_t i) const {
+  return vesicles.at(i).capillary_number.value_or(membrane.capillary_number);
+}
+
+double Scene::sigma0(std::size_t i) const {
+  return vesicles.at(i).sigma0.value_or(membrane.sigma0);
+}
+
+double Scene::spontaneous_curvature(std::size_t i) const {
+  return vesicles.at(i).spontaneous_curvature.value_or(membrane.spontaneous_curvature);
+}
+
+int Scene::latitudes(std::size_t i) const {
+  return vesicles.at(i).latitudes.value_or(mesh.latitudes);
 }
 
 long Scene::steps() const {
@@ -142,9 +191,11 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_physics(scene, name);
   check_tension(scene, name);
   check_time(scene, name);
+  check_flow(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
-    check_vesicle_keys(scene.vesicles[i], scene.mesh.latitudes, fmt::format("vesicles.{}", i), name);
+    check_degrees(scene, i, name);
+    check_vesicle_keys(scene, i, name);
     check_inside_box(scene, i, name);
   }
   check_apart(scene, name);

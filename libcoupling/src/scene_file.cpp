@@ -159,6 +159,18 @@ class Reader final : public KeyVisitor {
     if (const toml::node* node = find(key)) value = checked_vector(key, *node, range);
   }
 
+  void boolean(std::string_view key, bool& value) override {
+    if (const toml::node* node = find(key)) value = checked_boolean(key, *node, *node, "must be true or false");
+  }
+
+  void booleans(std::string_view key, std::array<bool, 3>& value) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    constexpr const char* allowed = "must be three of true or false, such as [true, true, false]";
+    if (!node->is_array() || node->as_array()->size() != 3) refuse(key, *node, allowed);
+    for (std::size_t i = 0; i < 3; ++i) value[i] = checked_boolean(key, *node, *node->as_array()->get(i), allowed);
+  }
+
   void cells(std::string_view key, std::array<int, 3>& value, const Range& range) override {
     const toml::node* node = find(key);
     if (node == nullptr) return;
@@ -225,6 +237,12 @@ class Reader final : public KeyVisitor {
     const double value = to_number(node);
     if (!range.contains(value)) refuse(key, whole, fmt::format("must be {}", range.describe()));
     return value;
+  }
+
+  bool checked_boolean(std::string_view key, const toml::node& whole, const toml::node& node,
+                       const char* allowed) const {
+    if (!node.is_boolean()) refuse(key, whole, allowed);
+    return node.as_boolean()->get();
   }
 
   int checked_integer(std::string_view key, const toml::node& whole, const toml::node& node, const Range& range) const {

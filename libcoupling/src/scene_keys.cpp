@@ -8,6 +8,7 @@ namespace vesiflow::coupling {
 namespace {
 
 constexpr std::string_view marker_motions[] = {"euler", "ab2", "shape_following"};
+constexpr Range latitudes{.low = 8, .high = 256};
 
 template <class Enum>
 void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::initializer_list<std::string_view> names) {
@@ -58,9 +59,14 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.vector("domain.lower", scene.domain.lower, Range::any());
   v.vector("domain.upper", scene.domain.upper, Range::any());
   v.cells("domain.cells", scene.domain.cells, Range::between(8, 2048));
+  v.booleans("domain.periodic", scene.domain.periodic);
 
-  choice_of(v, "flow.type", scene.flow.type, {"rest", "shear", "custom"});
+  choice_of(v, "flow.type", scene.flow.type,
+            {"rest", "shear", "oscillating_shear", "extension", "plane_poiseuille", "duct", "custom"});
   v.number("flow.rate", scene.flow.rate, Range::any());
+  v.number("flow.angular_frequency", scene.flow.angular_frequency, Range::from(0.0));
+  choice_of(v, "flow.extension", scene.flow.extension, {"planar", "uniaxial"});
+  v.number("flow.peak_velocity", scene.flow.peak_velocity, Range::any());
   choice_of(v, "flow.start", scene.flow.start, {"flow", "rest"});
 
   v.number("fluid.reynolds_number", scene.fluid.reynolds_number, Range::positive());
@@ -82,7 +88,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   choice_of(v, "membrane.laplacian", scene.membrane.laplacian, {"cartesian", "christoffel", "paper"});
   choice_of(v, "membrane.upsampling", scene.membrane.upsampling, {"1", "1.5", "2", "auto"});
 
-  v.integer("mesh.latitudes", scene.mesh.latitudes, Range::between(8, 256));
+  v.integer("mesh.latitudes", scene.mesh.latitudes, latitudes);
   choice_of(v, "mesh.filter", scene.mesh.filter, {"velocity", "components"});
   choice_of(v, "mesh.slip", scene.mesh.slip, {"interpolated", "dealiased"});
   v.integer("mesh.normal_degrees", scene.mesh.normal_degrees, Range::from(0));
@@ -90,6 +96,12 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   choice_of(v, "mesh.redistribute", scene.mesh.redistribute, {"never", "when_needed"});
   v.number("mesh.max_aspect_ratio", scene.mesh.max_aspect_ratio, Range::from(1.0));
   v.number("mesh.max_spectrum_tail", scene.mesh.max_spectrum_tail, Range::from(0.0));
+
+  v.vector("gravity.acceleration", scene.gravity.acceleration, Range::any());
+
+  v.number("repulsion.range", scene.repulsion.range, Range::from(0.0));
+  v.number("repulsion.strength", scene.repulsion.strength, Range::from(0.0));
+  v.boolean("repulsion.walls", scene.repulsion.walls);
 
   v.number("time.step", scene.time.step, Range::positive());
   v.number("time.end", scene.time.end, Range::positive());
@@ -116,6 +128,11 @@ void visit_keys(VesicleScene& vesicle, KeyVisitor& v) {
   v.vector("centre", vesicle.centre, Range::any());
   v.vector("rotation_axis", vesicle.rotation_axis, Range::any());
   v.number("rotation_deg", vesicle.rotation_deg, Range::any());
+  v.optional_number("capillary_number", vesicle.capillary_number, Range::positive());
+  v.optional_number("sigma0", vesicle.sigma0, Range::from(0.0));
+  v.optional_number("spontaneous_curvature", vesicle.spontaneous_curvature, Range::any());
+  v.optional_integer("latitudes", vesicle.latitudes, latitudes);
+  v.number("density_difference", vesicle.density_difference, Range::any());
 }
 
 std::string toml_number(double value) {

@@ -45,6 +45,9 @@ class KeyVisitor {
   virtual void vector(std::string_view key, std::array<double, 3>& value, const Range& range) = 0;
   virtual void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
                                const Range& range) = 0;
+  virtual void boolean(std::string_view key, bool& value) = 0;
+  /// One for each axis.
+  virtual void booleans(std::string_view key, std::array<bool, 3>& value) = 0;
   virtual void cells(std::string_view key, std::array<int, 3>& value, const Range& range) = 0;
   /// A list of [degree, order, amplitude]; absent when empty.
   virtual void harmonics(std::string_view key, std::vector<vesicle::Harmonic>& value) = 0;

@@ -59,6 +59,10 @@ class Lister : public KeyVisitor {
   void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const Range& range) override {
     show(key, value ? array_of(*value) : "", range.describe());
   }
+  void boolean(std::string_view key, bool& value) override { show(key, fmt::format("{}", value), "true, false"); }
+  void booleans(std::string_view key, std::array<bool, 3>& value) override {
+    show(key, fmt::format("[{}, {}, {}]", value[0], value[1], value[2]), "three of true, false");
+  }
   void cells(std::string_view key, std::array<int, 3>& value, const Range& range) override {
     show(key, fmt::format("[{}, {}, {}]", value[0], value[1], value[2]), range.describe());
   }

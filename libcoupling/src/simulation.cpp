@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "coupling/errors.h"
+#include "coupling/overlap.h"
+#include "external_forces.h"
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
 #include "phase_timer.h"
@@ -17,7 +19,8 @@ namespace {
 /// is tried again each time, at the price of about ten steps of a small scene.
 constexpr long redistribution_interval = 16;
 
-const Scene& checked(const Scene& scene) {
+Scene checked(Scene scene, FlowType type) {
+  scene.flow.type = type;
   check_scene(scene, "scene");
   return scene;
 }
@@ -33,7 +36,7 @@ std::string blow_up_advice(const Scene& scene) {
 }  // namespace
 
 fluid::Grid grid_of(const Scene& scene) {
-  return {scene.domain.lower, scene.domain.upper, scene.domain.cells};
+  return {scene.domain.lower, scene.domain.upper, scene.domain.cells, scene.domain.periodic};
 }
 
 fluid::SolverOptions solver_options_of(SolverChoice choice) {
@@ -60,29 +63,24 @@ fluid::FluidParameters fluid_parameters_of(const Scene& scene) {
   return parameters;
 }
 
-fluid::BoundaryVelocity flow_of(const Scene& scene) {
-  if (scene.flow.type == FlowType::custom)
-    throw SceneError(
-        "flow.type = \"custom\": stands for the flow of a program of one's own (docs/first_app.md); a scene "
-        "file can name rest or shear");
-  const double rate = scene.flow.type == FlowType::shear ? scene.flow.rate : 0.0;
-  return [rate](const fluid::Vector3& x, double) { return fluid::Vector3{rate * x[2], 0.0, 0.0}; };
-}
-
-Simulation::Simulation(const Scene& scene) : Simulation(scene, flow_of(scene), true, scene.flow.type) {}
+Simulation::Simulation(const Scene& scene) : Simulation(scene, flow_of(scene), scene.flow.type) {}
 
 Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady)
-    : Simulation(scene, flow, steady, FlowType::custom) {}
+    : Simulation(scene, custom_flow(flow, steady)) {}
 
-Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady, FlowType type)
-    : scene_(checked(scene)), fluid_(grid_of(scene), fluid_parameters_of(scene), flow, steady) {
-  scene_.flow.type = type;
+Simulation::Simulation(const Scene& scene, const Flow& flow) : Simulation(scene, flow, FlowType::custom) {}
+
+Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
+    : scene_(checked(scene, type)), fluid_(grid_of(scene), fluid_parameters_of(scene), flow.velocity, flow.steady) {
   if (scene_.flow.start == FlowStart::flow)
-    fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow(x, 0.0); });
+    fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow.velocity(x, 0.0); });
+  if (scene_.domain.periodic[0]) fluid_.uniform_force()[0] = flow.driving_force;
   for (std::size_t i = 0; i < scene_.vesicles.size(); ++i)
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(scene_, i, fluid_.grid()));
+  external_forces_ = std::make_unique<ExternalForces>(scene_, fluid_.grid(), vesicles_);
   if (scene_.mesh.redistribute == Redistribute::when_needed)
-    redistribution_.emplace(scene_.mesh.latitudes, moving_degrees(scene_));
+    for (std::size_t i = 0; i < vesicles_.size(); ++i)
+      redistributions_.try_emplace(scene_.latitudes(i), scene_.latitudes(i), moving_degrees(scene_, i));
   last_redistributions_.reserve(vesicles_.size());
   for (auto& v : vesicles_) v->interpolate(scene_.time.step, fluid_.velocity());
 }
@@ -105,17 +103,28 @@ void Simulation::compute_forces() {
     const PhaseTimer timer(seconds_.spread);
     for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
   }
-  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
-    ImmersedVesicle& v = *vesicles_[i];
-    {
-      const PhaseTimer timer(seconds_.membrane);
-      v.predict(scene_.time.step);
+  {
+    const PhaseTimer timer(seconds_.membrane);
+    for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+      vesicles_[i]->predict(scene_.time.step);
       check_limits(i);
     }
-    const PhaseTimer timer(seconds_.spread);
-    v.transfer.update(v.membrane.positions());
-    v.transfer.spread(v.membrane.force(), v.membrane.surface().area_weight(), fluid_.force());
+    external_forces_->compute();
   }
+  const PhaseTimer timer(seconds_.spread);
+  for (auto& v : vesicles_) {
+    v->transfer.update(v->membrane.positions());
+    v->transfer.spread(v->force(), v->membrane.surface().area_weight(), fluid_.force());
+  }
+  if (!fluid_.grid().has_walls()) hold_the_fluid();
+}
+
+// Without walls nothing takes up a total force, and all would accelerate for ever: the mean pressure gradient balances it.
+void Simulation::hold_the_fluid() {
+  const fluid::Grid& grid = fluid_.grid();
+  const fluid::Vector3 total = external_forces_->total();
+  for (int axis = 0; axis < 3; ++axis)
+    fluid_.uniform_force()[axis] = -total[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
 }
 
 void Simulation::advance_fluid() {
@@ -135,7 +144,7 @@ void Simulation::move_markers() {
 
 void Simulation::redistribute_markers() {
   last_redistributions_.clear();
-  if (!redistribution_ || steps() % redistribution_interval != 0) return;
+  if (redistributions_.empty() || steps() % redistribution_interval != 0) return;
   const vesicle::RedistributionLimits limits{scene_.mesh.max_aspect_ratio, scene_.mesh.max_spectrum_tail};
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
@@ -145,7 +154,7 @@ void Simulation::redistribute_markers() {
     }
     const PhaseTimer timer(seconds_.mesh);
     if (!limits.passed_by(vesicle::mesh_quality(v.membrane.surface()))) continue;
-    const vesicle::RedistributionReport report = v.membrane.redistribute(*redistribution_);
+    const vesicle::RedistributionReport report = v.membrane.redistribute(redistributions_.at(scene_.latitudes(i)));
     if (!report.moved) continue;
     v.motion->restart();
     v.is_current = false;
@@ -172,6 +181,12 @@ std::vector<vesicle::Diagnostics> Simulation::measure() {
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
     all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.mesh));
   return all;
+}
+
+std::vector<double> Simulation::nearest_distances() const {
+  std::vector<const vesicle::VectorField*> markers;
+  for (const auto& v : vesicles_) markers.push_back(&v->membrane.positions());
+  return coupling::nearest_distances(fluid_.grid(), markers);
 }
 
 double Simulation::max_divergence() const {

@@ -54,9 +54,13 @@ Json phases_of(const PhaseSeconds& s, double output_seconds) {
 Json vesicles_of(Simulation& simulation) {
   Json list = Json::array();
   try {
+    const std::vector<double> distances = simulation.nearest_distances();
     for (const auto& diagnostics : simulation.measure())
       list.push_back(vesicle_of(diagnostics, simulation.redistributions(list.size())));
+    for (std::size_t i = 0; distances.size() > 1 && i < distances.size(); ++i)
+      list[i]["min_distance"] = finite_or_null(distances[i]);
   } catch (const std::exception&) {
+    list.clear();
     for (std::size_t i = 0; i < simulation.vesicle_count(); ++i) list.push_back(nullptr);
   }
   return list;

@@ -119,14 +119,14 @@ std::string xdmf_grid(std::size_t vesicle, long step, int latitudes) {
   return text + "      </Grid>\n";
 }
 
-std::string xdmf(const std::map<long, double>& steps, std::size_t vesicles, int latitudes) {
+std::string xdmf(const std::map<long, double>& steps, const Scene& scene) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
       "  <Grid Name=\"vesicles\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   for (const auto& [step, time] : steps) {
     text += fmt::format("    <Grid Name=\"step_{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", step);
     text += fmt::format("      <Time Value=\"{}\"/>\n", time);
-    for (std::size_t v = 0; v < vesicles; ++v) text += xdmf_grid(v, step, latitudes);
+    for (std::size_t v = 0; v < scene.vesicles.size(); ++v) text += xdmf_grid(v, step, scene.latitudes(v));
     text += "    </Grid>\n";
   }
   return text + "  </Grid>\n</Domain>\n</Xdmf>\n";
@@ -143,16 +143,16 @@ void VesicleSnapshots::rewind(long step) {
 }
 
 void VesicleSnapshots::write(Simulation& simulation) {
-  const int latitudes = simulation.scene().mesh.latitudes;
+  const Scene& scene = simulation.scene();
   const std::size_t vesicles = simulation.vesicle_count();
   append_snapshot(
       directory_ / "vesicle.h5", simulation.steps(), simulation.time(),
       [&](Hdf5File& file) {
         file.attribute("/", "format", format_version);
         file.attribute("/", "vesicles", static_cast<std::int64_t>(vesicles));
-        const std::vector<std::int32_t> topology = triangles(latitudes);
         for (std::size_t v = 0; v < vesicles; ++v)
-          file.write(fmt::format("/topology/vesicle_{}", v), topology.data(), {triangles_of(latitudes), 3});
+          file.write(fmt::format("/topology/vesicle_{}", v), triangles(scene.latitudes(v)).data(),
+                     {triangles_of(scene.latitudes(v)), 3});
       },
       [&](Hdf5File& file, const std::string& group) {
         for (std::size_t v = 0; v < vesicles; ++v)
@@ -160,7 +160,7 @@ void VesicleSnapshots::write(Simulation& simulation) {
                       simulation.marker_velocity(v));
       });
   steps_[simulation.steps()] = simulation.time();
-  write_text_atomically(directory_ / "vesicle.xdmf", xdmf(steps_, vesicles, latitudes));
+  write_text_atomically(directory_ / "vesicle.xdmf", xdmf(steps_, scene));
 }
 
 }  // namespace vesiflow::coupling

@@ -54,6 +54,14 @@ inline void scale_and_add(double factor, ConstBlocks x, Blocks y) {
   });
 }
 
+// y += constant.
+inline void add_constant(double constant, View y) {
+  for_each_row(y, y, [constant](double* to, const double*, int n) {
+#pragma omp simd
+    for (int i = 0; i < n; ++i) to[i] += constant;
+  });
+}
+
 // Sums over arrays of at most that many planes.
 class PlaneSums {
  public:

@@ -33,6 +33,12 @@ FaceVector& NavierStokes::force() {
 const FaceVector& NavierStokes::force() const {
   return stepper_->force;
 }
+Vector3& NavierStokes::uniform_force() {
+  return stepper_->uniform_force;
+}
+const Vector3& NavierStokes::uniform_force() const {
+  return stepper_->uniform_force;
+}
 const FaceVector& NavierStokes::velocity() const {
   return stepper_->velocity;
 }

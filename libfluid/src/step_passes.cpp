@@ -42,8 +42,8 @@ StepCoefficients step_coefficients(double dt, double previous_dt) {
 }
 
 void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
-                    const Field<Cell>& pressure, const FaceVector& force, FaceVector* convection,
-                    FaceVector& previous) {
+                    const Field<Cell>& pressure, const FaceVector& force, const Vector3& uniform_force,
+                    FaceVector* convection, FaceVector& previous) {
   const Grid& grid = u.grid();
   const double c1 = reynolds_number * coefficients.a1 / dt;
   const double c2 = reynolds_number * coefficients.a2 / dt;
@@ -60,11 +60,11 @@ void explicit_terms(const StepCoefficients& coefficients, double reynolds_number
     const double* p = pressure.row(j, k);
     const double* p_below = p - back[component];
     const double* f = forces[component].row(j, k);
-    const double slope = per_h[component];
+    const double slope = per_h[component], everywhere = uniform_force[component];
     double* out = results[component].row(j, k);
 #pragma omp simd
     for (int i = range.begin[0]; i < range.end[0]; ++i) {
-      out[i] = c1 * c[i] - c2 * out[i] - (p[i] - p_below[i]) * slope + f[i];
+      out[i] = c1 * c[i] - c2 * out[i] - (p[i] - p_below[i]) * slope + (f[i] + everywhere);
     }
     if (convection == nullptr) return;
     double* n = convection->points()[component].row(j, k);

@@ -17,11 +17,12 @@ struct StepCoefficients {
 StepCoefficients step_coefficients(double dt, double previous_dt);
 
 // The explicit terms on the inner faces, without walls:
-//   Re [(a1 u - a2 previous) / dt - b1 N(u) + b2 N(previous)] - grad p + f.
+//   Re [(a1 u - a2 previous) / dt - b1 N(u) + b2 N(previous)] - grad p + force + uniform_force.
 // previous is overwritten by them. convection holds N(previous) and is overwritten by N(u); null leaves
 // convection out.
 void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
-                    const Field<Cell>& pressure, const FaceVector& force, FaceVector* convection, FaceVector& previous);
+                    const Field<Cell>& pressure, const FaceVector& force, const Vector3& uniform_force,
+                    FaceVector* convection, FaceVector& previous);
 
 // Given -Lap chi = div u: u += grad chi on the inner faces. Sets chi's ghosts.
 void remove_divergence(Field<Cell>& chi, FaceVector& u);

@@ -254,7 +254,7 @@ void Stepper::solve_stokes(double dt) {
   const PhaseTimer timer(timings.momentum);
   const double r = step_coefficients(dt, previous_step()).b2;
   extrapolate(velocity, previous, r, previous);
-  report.stokes = stokes_->solve(force, walls, previous, pressure);
+  report.stokes = stokes_->solve(force, walls, previous, pressure, uniform_force);
   if (!report.stokes.converged) {
     throw std::runtime_error(message("the Stokes solver stopped after ", report.stokes.iterations,
                                      " iterations at a relative residual of ", report.stokes.residual));
@@ -283,7 +283,7 @@ void Stepper::update_velocity_solver(double a) {
 void Stepper::form_right_hand_side(const StepCoefficients& coefficients, double dt) {
   if (extrapolated_) extrapolate(velocity, previous, coefficients.b2, *extrapolated_);
   const PhaseTimer timer(timings.convection);
-  explicit_terms(coefficients, parameters.reynolds_number, dt, velocity, pressure, force,
+  explicit_terms(coefficients, parameters.reynolds_number, dt, velocity, pressure, force, uniform_force,
                  convection_ ? &*convection_ : nullptr, previous);
   if (!implicit_stress()) walls.add_diffusion(reference_viscosity_, previous);
 }

@@ -30,6 +30,7 @@ class Stepper {
   FluidParameters parameters;
   WallVelocity walls;
   FaceVector velocity, previous, force;
+  Vector3 uniform_force{};
   Field<Cell> pressure;
   FluidClock clock;
   FluidTimings timings;

@@ -40,13 +40,15 @@ class StokesSolver::System {
  public:
   System(const Grid& grid, const StokesOptions& options);
   void update(const Viscosity& mu);
-  StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p);
+  StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
+                     const Vector3& uniform_force);
 
   Grid grid;
   StokesOptions options;
 
  private:
-  std::array<double, 3> set_residual(const FaceVector& force, const FaceVector& u, ConstView p);
+  std::array<double, 3> set_residual(const FaceVector& force, const Vector3& uniform_force, const FaceVector& u,
+                                     ConstView p);
   double velocity_residual_norm() { return std::sqrt(sums_.dot(residual_.u(), residual_.u())); }
   void remove_divergence(const WallVelocity& walls, FaceVector& u, Field<Cell>& p);
 
@@ -95,11 +97,13 @@ void StokesSolver::System::update(const Viscosity& mu) {
 }
 
 // r_u = f - A u - grad p and r_p = div u, of a velocity with its walls and ghosts set. Returns the means that f loses.
-std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force, const FaceVector& u, ConstView p) {
+std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force, const Vector3& uniform_force,
+                                                         const FaceVector& u, ConstView p) {
   copy(p, correction_.p());
   solver_->viscous_operator().apply_to_points(u.points(), residual_.u());
   add_gradient(grid, correction_.pressure, residual_.u());
   scale_and_add(-1.0, force.unknowns(), residual_.u());
+  for (int component = 0; component < 3; ++component) add_constant(uniform_force[component], residual_.u()[component]);
   negative_divergence(grid, u.points(), residual_.p());
   scale(-1.0, residual_.p());
   return grid.has_walls() ? std::array<double, 3>{} : sums_.remove_means(residual_.u());
@@ -118,7 +122,7 @@ void StokesSolver::System::remove_divergence(const WallVelocity& walls, FaceVect
 }
 
 StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u,
-                                         Field<Cell>& p) {
+                                         Field<Cell>& p, const Vector3& uniform_force) {
   const auto start = std::chrono::steady_clock::now();
   if (!(force.grid() == grid && u.grid() == grid && p.grid() == grid)) {
     throw std::invalid_argument("stokes: the force, the velocity or the pressure is on another grid");
@@ -127,7 +131,7 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   walls.set_normal_faces(lift_);
   walls.fill_ghosts(lift_);
   set_zero(chi_.unknowns());
-  report.removed_mean_force = set_residual(force, lift_, std::as_const(chi_).unknowns());
+  report.removed_mean_force = set_residual(force, uniform_force, lift_, std::as_const(chi_).unknowns());
   const double force_norm = velocity_residual_norm();
   if (!std::isfinite(force_norm)) throw std::runtime_error("stokes: the force is not finite");
   const double size = solver_->norm(residual_);
@@ -140,7 +144,7 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
   walls.set_normal_faces(u);
   walls.fill_ghosts(u);
-  set_residual(force, u, p.unknowns());
+  set_residual(force, uniform_force, u, p.unknowns());
   if (!std::isfinite(velocity_residual_norm())) throw std::runtime_error("stokes: the initial guess is not finite");
   // No further below the residual of the guess than round-off allows.
   const double target = std::max(options.tolerance * size, 1e-13 * solver_->norm(residual_));
@@ -152,7 +156,7 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
   remove_divergence(walls, u, p);
 
-  set_residual(force, u, p.unknowns());
+  set_residual(force, uniform_force, u, p.unknowns());
   report.momentum_residual = relative_to(force_norm, velocity_residual_norm());
   report.residual = relative_to(size, solver_->norm(residual_));
   report.divergence = max_divergence(u);
@@ -170,8 +174,9 @@ void StokesSolver::update(const Viscosity& mu) {
   system_->update(mu);
 }
 
-StokesReport StokesSolver::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p) {
-  return system_->solve(force, walls, u, p);
+StokesReport StokesSolver::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
+                                 const Vector3& uniform_force) {
+  return system_->solve(force, walls, u, p, uniform_force);
 }
 
 const Grid& StokesSolver::grid() const {

@@ -60,7 +60,9 @@ refused 2 'text.h5.*not HDF5' "$scene" "${small[@]}" --restart "$work/text.h5"
 refused 2 'written with fluid.reynolds_number' "$scene" "${small[@]}" --set fluid.reynolds_number=1 \
   --restart "$work/run/checkpoint.h5"
 refused 2 'flow.type = "custom".*own' "$scene" --set flow.type=custom
-refused 2 'use the app relaxation' "$scenes/relaxation_oblate.toml"
+refused 2 'use the app vesicles' "$scenes/relaxation_oblate.toml"
+refused 2 'domain.periodic = .*does not repeat along z' "$scene" --set 'domain.periodic=[false, false, true]'
+refused 2 'repulsion.range = -1.*>= 0' "$scene" --set repulsion.range=-1
 
 # A folder that cannot be written: below a file.
 message=$("$shear_flow" "$scene" "${small[@]}" --out "$work/text.h5/run" --quiet 2>&1)

@@ -62,14 +62,17 @@ void expect_same_state(const fs::path& a, const fs::path& b, const Scene& scene)
   EXPECT_TRUE(same(x.velocity.z, y.velocity.z));
   EXPECT_TRUE(same(x.previous_velocity.x, y.previous_velocity.x));
   EXPECT_TRUE(same(x.pressure, y.pressure));
-  EXPECT_TRUE((x.vesicles[0].membrane.positions == y.vesicles[0].membrane.positions).all());
-  EXPECT_TRUE((x.vesicles[0].membrane.target_areas == y.vesicles[0].membrane.target_areas).all());
-  EXPECT_TRUE((x.vesicles[0].membrane.initial_areas == y.vesicles[0].membrane.initial_areas).all());
-  EXPECT_EQ(x.vesicles[0].motion_history, y.vesicles[0].motion_history);
-  EXPECT_EQ(x.vesicles[0].redistributions, y.vesicles[0].redistributions);
+  for (std::size_t i = 0; i < x.vesicles.size(); ++i) {
+    EXPECT_TRUE((x.vesicles[i].membrane.positions == y.vesicles[i].membrane.positions).all());
+    EXPECT_TRUE((x.vesicles[i].membrane.target_areas == y.vesicles[i].membrane.target_areas).all());
+    EXPECT_TRUE((x.vesicles[i].membrane.initial_areas == y.vesicles[i].membrane.initial_areas).all());
+    EXPECT_EQ(x.vesicles[i].motion_history, y.vesicles[i].motion_history);
+    EXPECT_EQ(x.vesicles[i].redistributions, y.vesicles[i].redistributions);
+  }
 }
 
-void compare_restart(const fs::path& folder, const Overrides& overrides, int threads) {
+void compare_restart(const fs::path& folder, const Overrides& overrides, int threads,
+                     Scene (*make_scene)(const Overrides&) = small_scene) {
   const int before = omp_get_max_threads();
   omp_set_num_threads(threads);
   const auto go = [&](const Scene& scene, const fs::path& directory, const std::optional<fs::path>& checkpoint) {
@@ -82,9 +85,9 @@ void compare_restart(const fs::path& folder, const Overrides& overrides, int thr
   };
   Overrides half = overrides;
   half.emplace_back("time.end=0.25");
-  const Scene whole_scene = small_scene(overrides);
+  const Scene whole_scene = make_scene(overrides);
   go(whole_scene, folder / "whole", std::nullopt);
-  go(small_scene(half), folder / "parts", std::nullopt);
+  go(make_scene(half), folder / "parts", std::nullopt);
   go(whole_scene, folder / "parts", folder / "parts" / "checkpoint.h5");
   expect_same_state(folder / "whole" / "checkpoint.h5", folder / "parts" / "checkpoint.h5", whole_scene);
   omp_set_num_threads(before);
@@ -109,6 +112,31 @@ TEST_F(RunTest, RestartContinuesBitForBitThroughRedistributions) {
 }
 TEST_F(RunTest, RestartContinuesBitForBitWithThePaperPreset) {
   compare_restart(folder_, {"method.preset=paper", "fluid.reynolds_number=1"}, 2);
+}
+
+// Latitudes, forces and redistributions of their own.
+TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBit) {
+  compare_restart(folder_, {"mesh.max_aspect_ratio=1.5", "time.markers=ab2", "membrane.g=1.5"}, 2, three_vesicles);
+  const std::string header = text_of(at("whole") / "diagnostics.csv").substr(0, 600);
+  EXPECT_NE(header.find(",min_distance\n"), std::string::npos) << header;
+}
+
+TEST_F(RunTest, RestartRefusesAVesicleWithAnotherPropertyOfItsOwn) {
+  const auto refusal = [&](const Overrides& overrides) -> std::string {
+    Simulation simulation(three_vesicles(overrides));
+    try {
+      restore_checkpoint(at("run") / "checkpoint.h5", simulation);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  run_scene(three_vesicles({"time.end=0.05"}), at("run"));
+  EXPECT_EQ(refusal({}), "accepted");
+  EXPECT_NE(refusal({"vesicles.1.latitudes=24"}).find("vesicles.1.latitudes = 20, this scene has 24"),
+            std::string::npos);
+  EXPECT_NE(refusal({"vesicles.0.sigma0=100"}).find("vesicles.0.sigma0 = absent, this scene has 100.0"),
+            std::string::npos);
 }
 
 TEST_F(RunTest, RestartContinuesTheFilesOfItsFolder) {

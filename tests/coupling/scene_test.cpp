@@ -76,6 +76,20 @@ TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of("[flow]\ntype = \"sheer\"\n" + sphere), {"test.toml:2", "flow.type", "sheer", "rest, shear"});
   expect_parts(message_of("[fluid]\ninertia = \"some\"\n" + sphere), {"fluid.inertia", "full", "unsteady", "none"});
   expect_parts(message_of(sphere, {"mesh.latitudes=7"}), {"--set", "mesh.latitudes = 7", "in [8, 256]"});
+  expect_parts(message_of("[domain]\nperiodic = true\n" + sphere), {"test.toml:2", "domain.periodic", "three of true"});
+  expect_parts(message_of("[domain]\nperiodic = [true, 1, false]\n" + sphere), {"domain.periodic", "three of true"});
+  expect_parts(message_of(sphere, {"repulsion.walls=1"}), {"--set", "repulsion.walls = 1", "true or false"});
+  expect_parts(message_of(sphere, {"repulsion.range=-0.1"}), {"repulsion.range = -0.1", ">= 0"});
+  expect_parts(message_of(sphere, {"repulsion.strength=-1"}), {"repulsion.strength = -1", ">= 0"});
+  expect_parts(message_of(sphere, {"gravity.acceleration=[0, 1]"}), {"gravity.acceleration", "three numbers"});
+  expect_parts(message_of(sphere, {"flow.angular_frequency=-1"}), {"flow.angular_frequency = -1", ">= 0"});
+  expect_parts(message_of(sphere, {"flow.extension=biaxial"}), {"flow.extension", "biaxial", "planar, uniaxial"});
+  expect_parts(message_of(sphere, {"flow.peak_velocity=inf"}), {"flow.peak_velocity = inf", "finite"});
+  expect_parts(message_of(sphere, {"vesicles.0.capillary_number=0"}), {"vesicles.0.capillary_number = 0", "> 0"});
+  expect_parts(message_of(sphere, {"vesicles.0.sigma0=-1"}), {"vesicles.0.sigma0 = -1", ">= 0"});
+  expect_parts(message_of(sphere, {"vesicles.0.latitudes=300"}), {"vesicles.0.latitudes = 300", "in [8, 256]"});
+  expect_parts(message_of(sphere, {"vesicles.0.spontaneous_curvature=big"}), {"spontaneous_curvature", "a number"});
+  expect_parts(message_of(sphere, {"vesicles.0.density_difference=nan"}), {"density_difference = nan", "finite"});
 }
 
 TEST(Scene, RefusesUnknownKeysAndSuggestsOne) {
@@ -101,6 +115,64 @@ TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
   expect_parts(message_of(sphere + sphere), {"vesicles.0 and vesicles.1 overlap"});
   expect_parts(message_of("title = \"empty\"\n"), {"vesicles"});
   expect_parts(message_of(sphere, {"fluid.viscosity_ratio=5"}), {"fluid.viscosity_ratio = 5", "allowed is 1"});
+}
+
+TEST(Scene, RefusesPeriodicAxesAndStepsThatTheFlowForbids) {
+  const auto with = [](const char* type, const char* periodic) {
+    return message_of(sphere, {std::string("flow.type=") + type, std::string("domain.periodic=") + periodic});
+  };
+  for (const char* type : {"shear", "oscillating_shear", "plane_poiseuille"}) {
+    EXPECT_EQ(with(type, "[true, true, false]"), "accepted");
+    expect_parts(with(type, "[false, false, true]"),
+                 {"domain.periodic = [false, false, true]", "not repeat along z", "allowed is [true, true, false]"});
+  }
+  EXPECT_EQ(with("rest", "[true, true, true]"), "accepted");
+  EXPECT_EQ(with("duct", "[true, false, false]"), "accepted");
+  expect_parts(with("duct", "[true, true, false]"), {"domain.periodic", "along y"});
+  expect_parts(with("extension", "[false, true, false]"), {"domain.periodic", "along y"});
+  const Overrides slow = {"membrane.sigma0=0", "time.step=0.2"};
+  const auto stepped = [&](Overrides more) {
+    more.insert(more.end(), slow.begin(), slow.end());
+    return message_of(sphere, more);
+  };
+  EXPECT_EQ(stepped({}), "accepted");
+  expect_parts(stepped({"flow.rate=1.5"}), {"time.step = 0.2", "up to 1.5", "time.step <= 0.1667"});
+  expect_parts(stepped({"flow.type=oscillating_shear", "flow.angular_frequency=2"}), {"time.step = 0.2", "up to 2"});
+  expect_parts(stepped({"flow.type=extension", "flow.rate=-2"}), {"time.step = 0.2", "up to 2"});
+  EXPECT_EQ(stepped({"flow.type=plane_poiseuille", "flow.peak_velocity=3.7"}), "accepted");  // 2 u/H = 1.23
+  expect_parts(stepped({"flow.type=plane_poiseuille", "flow.peak_velocity=3.8"}), {"time.step = 0.2", "up to 1.267"});
+  expect_parts(stepped({"flow.type=duct", "flow.peak_velocity=3.7"}), {"time.step = 0.2"});
+}
+
+TEST(Scene, VesiclesHaveTheirOwnPropertiesOrThoseOfAll) {
+  const Scene scene = parse("[membrane]\nsigma0 = 300\n" + sphere +
+                            "[[vesicles]]\nshape = \"sphere\"\ncentre = [3, 0, 0]\nsigma0 = 500\nlatitudes = 24\n"
+                            "capillary_number = 0.5\nspontaneous_curvature = -1\n");
+  EXPECT_EQ(scene.sigma0(0), 300.0);
+  EXPECT_EQ(scene.sigma0(1), 500.0);
+  EXPECT_EQ(scene.latitudes(0), 32);
+  EXPECT_EQ(scene.latitudes(1), 24);
+  EXPECT_EQ(scene.capillary_number(0), 2.5);
+  EXPECT_EQ(scene.capillary_number(1), 0.5);
+  EXPECT_EQ(scene.spontaneous_curvature(0), 0.0);
+  EXPECT_EQ(scene.spontaneous_curvature(1), -1.0);
+  EXPECT_EQ(scene.tension_number(), scene.time.step * 500.0 / (4 * scene.spacing()));  // of the stiffest
+  EXPECT_EQ(to_toml(parse(to_toml(scene))), to_toml(scene));
+  const std::string few = sphere + "latitudes = 10\n";
+  expect_parts(message_of(few), {"mesh.tangential_degrees = 15", "vesicles.0.latitudes = 10"});
+  expect_parts(message_of(sphere, {"vesicles.0.sigma0=1e4"}), {"time.step", "g =", "sigma0 <="});
+}
+
+// A vesicle that reaches out of a periodic side comes in at the other, where another one may be; or itself.
+TEST(Scene, VesiclesOverlapThroughPeriodicSidesToo) {
+  const std::string two = "[domain]\nperiodic = [true, true, false]\n" + sphere + "centre = [5.5, 0, 0]\n" + sphere;
+  EXPECT_EQ(message_of(two + "centre = [3, 0, 0]\n"), "accepted");
+  EXPECT_EQ(message_of(two + "centre = [-4, 0, 0]\n"), "accepted");
+  expect_parts(message_of(two + "centre = [-5, 0, 0]\n"), {"vesicles.0 and vesicles.1 (repeated", "overlap"});
+  expect_parts(message_of("[domain]\nperiodic = [true, false, false]\nlower = [0, -6, -6]\nupper = [1.9, 6, 6]\n"
+                          "cells = [12, 64, 64]\n" +
+                          sphere),
+               {"vesicles.0 and vesicles.0 (repeated", "enlarge the box"});
 }
 
 TEST(Scene, RefusesFilesThatCannotBeReadOrAreNotToml) {

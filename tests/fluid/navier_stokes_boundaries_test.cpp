@@ -97,6 +97,28 @@ TEST(NavierStokes, AcceleratesAPeriodicBoxAsAWhole) {
   EXPECT_LT(test::max_abs(fluid.velocity().x.points()), 1e-13);
 }
 
+// A uniform force is a field of force that is the same everywhere, whatever the inertia.
+TEST(NavierStokes, TakesAUniformForceAsAFieldOfIt) {
+  const Grid grid({0, 0, 0}, {1, 2, 3}, {6, 7, 8}, {true, false, false});
+  for (const Inertia inertia : {Inertia::full, Inertia::none}) {
+    FluidParameters parameters;
+    parameters.inertia = inertia;
+    parameters.stokes.tolerance = 1e-12;
+    NavierStokes filled(grid, parameters, no_slip), uniform(grid, parameters, no_slip);
+    filled.force().x.fill(3.0);
+    filled.force().z.fill(-1.0);
+    uniform.uniform_force() = {1.0, 0.0, -1.0};
+    uniform.force().x.fill(2.0);
+    for (int k = 0; k < 3; ++k) {
+      filled.step(0.05);
+      uniform.step(0.05);
+    }
+    EXPECT_GT(test::max_abs(filled.velocity().x.points()), 0.1);
+    EXPECT_LT(test::max_difference(filled.velocity(), uniform.velocity()), 1e-12);
+    EXPECT_LT(test::max_difference(filled.pressure().points(), uniform.pressure().points()), 1e-10);
+  }
+}
+
 // What happens does not depend on where a periodic box is cut: the force moved by one cell moves the flow.
 TEST(NavierStokes, FollowsATranslationAlongAPeriodicAxis) {
   const Grid grid({0, 0, 0}, {1, 2, 3}, {6, 7, 8}, {true, false, true});

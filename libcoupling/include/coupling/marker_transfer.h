@@ -1,64 +1,81 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "coupling/delta_kernel.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
 #include "vesicle/types.h"
 
 namespace vesiflow::coupling {
 
-/// The two transfers between the markers of one membrane and the staggered grid, with the smoothed delta function
-/// delta_h(x) = phi(x/h_x) phi(y/h_y) phi(z/h_z) / (h_x h_y h_z):
-///   spread       f(x)   = sum_m F_m dA_m delta_h(x - X_m)            conservative: total force is kept
+/// The two transfers between the markers of one membrane and the staggered grid, with a regularized delta function
+/// (coupling/delta_kernel.h):
+///   spread       f(x)   = sum_m F_m dA_m delta_h(x - X_m)            conservative: total force and torque are kept
 ///   interpolate  U_m    = sum_x u(x) delta_h(x - X_m) h_x h_y h_z    consistent: exact for linear fields
-/// (Steps 2 and 4 of the paper). They are discrete adjoints: sum_x f.u h^3 = sum_m F_m dA_m . U_m.
-/// Both work inside the bounding box of the markers only, and their results do not depend on the number of threads.
+/// (Steps 2 and 4 of the paper). They are discrete adjoints: sum_x f.u h_x h_y h_z = sum_m F_m dA_m . U_m.
+/// Their results do not depend on the number of threads, and once warmed up no call allocates.
+///
+/// Each axis of the grid has
+/// - two walls: a marker whose support would leave the box is refused;
+/// - or is periodic: markers may be anywhere, also several boxes away. Points count once (of the faces the first, not the
+///   last, which is the same face);
+/// - or a mirror plane at its lower end and a wall at the upper: the box is one half of a symmetric whole, and the markers
+///   are those of the whole, on both sides of the plane and on it. Velocities are continued beyond the plane by symmetry
+///   (the normal component changes its sign). The force density is the symmetric part of that of the whole, so markers and
+///   forces that are symmetric give exactly the half of what they give in the whole, and none normal to the plane on the
+///   plane. Half of the power falls on the half box: sum_x f.u h_x h_y h_z = 1/2 sum_m F_m dA_m . U_m, on each such axis.
+///
+/// Several membranes may add to one density, each by its own MarkerTransfer.
 class MarkerTransfer {
  public:
-  explicit MarkerTransfer(const fluid::Grid& grid);
+  /// \param mirror_lower the axes with a mirror plane at the lower end
+  /// \throws std::invalid_argument for an axis that is both periodic and mirrored, or is not of walls and has fewer cells
+  ///         than the kernel has points
+  explicit MarkerTransfer(const fluid::Grid& grid, DeltaKernel kernel = DeltaKernel::smoothed_four_point,
+                          const std::array<bool, 3>& mirror_lower = {false, false, false});
+  ~MarkerTransfer();
+  MarkerTransfer(MarkerTransfer&&) noexcept;
+  MarkerTransfer& operator=(MarkerTransfer&&) noexcept;
 
-  /// Computes the weights for markers at `positions` (markers x 3, in length units).
-  /// \throws SimulationStopped when a marker is so near a wall that its support leaves the box
+  /// Computes the weights for markers at `positions` (markers x 3, in length units). Their number may change.
+  /// \throws SimulationStopped when a marker is so near a wall that its support leaves the box, or is not finite
   void update(const Eigen::Ref<const vesicle::VectorField>& positions);
 
   /// Adds the force density of `force` (per membrane area, markers x 3) times `area_weight` (dA per marker).
   void spread(const vesicle::VectorField& force, const vesicle::ScalarField& area_weight, fluid::FaceVector& density);
 
-  /// Velocity at the markers (markers x 3).
+  /// Velocity at the markers (markers x 3). Reads points of the box only, no ghosts.
   void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
 
-  /// Sets `density` to zero wherever the last `spread` wrote.
-  void clear(fluid::FaceVector& density) const;
+  /// Sets `density` to zero in the bounding box of the markers of every `spread` since the last `clear`, including what other
+  /// transfers have added there.
+  void clear(fluid::FaceVector& density);
 
+  DeltaKernel kernel() const { return kernel_; }
   /// Distance from a wall, in grid spacings, below which a marker is refused.
-  static constexpr double wall_distance = 1.5;
+  double wall_distance() const { return coupling::wall_distance(kernel_); }
 
  private:
-  // Points of one axis: 0 on faces (multiples of h), 1 at cell centres.
-  struct Stencil {
-    std::array<std::array<std::int32_t, 2>, 3> first;             // [axis][faces, centres]
-    std::array<std::array<std::array<double, 4>, 2>, 3> weights;  // [axis][faces, centres][point]
+  // Along one axis: `count` points from `first` on, on a periodic axis continued at 0.
+  struct IndexRange {
+    int first = 0, count = 0;
+    friend bool operator==(const IndexRange&, const IndexRange&) = default;
   };
-  struct Box {
-    std::array<std::int32_t, 3> first{0, 0, 0}, last{-1, -1, -1};
-  };
+  using Box = std::array<IndexRange, 3>;
+  class Loops;  // the inner loops, compiled for each kernel
+  template <class Functions>
+  class KernelLoops;
 
-  template <class Centring>
-  void spread_component(int component, const vesicle::VectorField& force, const vesicle::ScalarField& area_weight,
-                        fluid::Field<Centring>& density) const;
-  template <class Centring>
-  void interpolate_component(int component, const fluid::Field<Centring>& velocity,
-                             vesicle::VectorField& marker_velocity) const;
-  template <class Centring>
-  void clear_component(fluid::Field<Centring>& density) const;
+  void clear_box(const Box& box, const fluid::View& component) const;
 
+  DeltaKernel kernel_;
   fluid::Grid grid_;
-  std::vector<Stencil> stencils_;
-  Box box_{};         // of the supports of all markers
-  Box spread_box_{};  // that of the last spread; empty before
+  double per_volume_;  // the inverse volume of a cell, halved for each mirror plane
+  std::unique_ptr<Loops> loops_;
+  std::vector<Box> spread_boxes_;  // since the last clear
 };
 
 }  // namespace vesiflow::coupling

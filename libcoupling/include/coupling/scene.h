@@ -17,7 +17,8 @@
 namespace vesiflow::coupling {
 
 enum class Preset { standard, paper };
-enum class FlowType { rest, shear, custom };
+enum class FlowType { rest, shear, oscillating_shear, extension, plane_poiseuille, duct, custom };
+enum class Extension { planar, uniaxial };
 enum class FlowStart { flow, rest };
 enum class Shape { sphere, prolate, oblate, ellipsoid, biconcave, harmonics, coefficients, mesh };
 enum class Redistribute { never, when_needed };
@@ -38,6 +39,12 @@ struct VesicleScene {
   std::array<double, 3> centre{0.0, 0.0, 0.0};
   std::array<double, 3> rotation_axis{0.0, 1.0, 0.0};
   double rotation_deg = 0.0;  ///< turns the shape, whose symmetry axis is z, about rotation_axis
+  // The vesicle's own, in the place of what membrane and mesh say for all.
+  std::optional<double> capillary_number;
+  std::optional<double> sigma0;
+  std::optional<double> spontaneous_curvature;
+  std::optional<int> latitudes;
+  double density_difference = 0.0;  ///< inside minus outside: gravity pulls with density_difference times acceleration
 };
 
 /// Linear solver of the fluid by name; "auto" takes what is fastest for the problem (fluid/elliptic_solver.h).
@@ -54,10 +61,14 @@ struct Scene {
     std::array<double, 3> lower{-6.0, -6.0, -6.0};
     std::array<double, 3> upper{6.0, 6.0, 6.0};
     std::array<int, 3> cells{64, 64, 64};
+    std::array<bool, 3> periodic{false, false, false};  ///< along which axes the box repeats
   } domain;
   struct Flow {
     FlowType type = FlowType::shear;
-    double rate = 1.0;  ///< shear rate: u = (rate z, 0, 0)
+    double rate = 1.0;               ///< of shear and extension
+    double angular_frequency = 1.0;  ///< of an oscillating shear
+    Extension extension = Extension::planar;
+    double peak_velocity = 1.0;  ///< of plane Poiseuille and duct flow
     FlowStart start = FlowStart::flow;
   } flow;
   struct Fluid {
@@ -91,6 +102,14 @@ struct Scene {
     double max_aspect_ratio = vesicle::RedistributionLimits{}.aspect_ratio;
     double max_spectrum_tail = vesicle::RedistributionLimits{}.spectrum_tail;
   } mesh;
+  struct Gravity {
+    std::array<double, 3> acceleration{0.0, 0.0, 0.0};
+  } gravity;
+  struct Repulsion {
+    double range = 0.0;       ///< 0 switches it off
+    double strength = 100.0;  ///< pressure between two membranes in contact
+    bool walls = true;        ///< whether walls repel too
+  } repulsion;
   struct Time {
     double step = 1.0 / 192.0;
     double end = 8.0;
@@ -107,9 +126,16 @@ struct Scene {
   } output;
   std::vector<VesicleScene> vesicles;
 
+  // What holds for vesicle number i: its own value, or that for all.
+  double capillary_number(std::size_t i) const;
+  double sigma0(std::size_t i) const;
+  double spontaneous_curvature(std::size_t i) const;
+  int latitudes(std::size_t i) const;
+
   /// Largest grid spacing.
   double spacing() const;
-  /// g = dt sigma0/(4 mu h), the number that decides whether the explicit tension is stable (below 7 to 8).
+  /// g = dt sigma0/(4 mu h), the number that decides whether the explicit tension is stable (below 7 to 8), of the stiffest
+  /// vesicle.
   double tension_number() const;
   /// Steps from 0 to time.end, the last one at or just beyond it.
   long steps() const;

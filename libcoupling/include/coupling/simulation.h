@@ -1,10 +1,12 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "coupling/flow.h"
 #include "coupling/scene.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/diagnostics.h"
@@ -44,6 +46,7 @@ struct SimulationState {
 };
 
 struct ImmersedVesicle;
+class ExternalForces;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
 class Simulation {
@@ -54,6 +57,8 @@ class Simulation {
   /// The same with a boundary velocity of one's own instead of the scene's flow (flow.type becomes "custom"); it is also
   /// the initial velocity if flow.start = "flow". `steady` says that it does not depend on time.
   Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady);
+  /// The same with all that a flow can say.
+  Simulation(const Scene& scene, const Flow& flow);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -74,6 +79,8 @@ class Simulation {
 
   /// Measures of every vesicle at the present time.
   std::vector<vesicle::Diagnostics> measure();
+  /// For each vesicle the least distance between its markers and those of any other, see nearest_distances().
+  std::vector<double> nearest_distances() const;
   /// Greatest |div u| of the fluid; round-off when all is well.
   double max_divergence() const;
 
@@ -90,9 +97,10 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
-  Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady, FlowType type);
+  Simulation(const Scene& scene, const Flow& flow, FlowType type);
 
   void compute_forces();
+  void hold_the_fluid();
   void advance_fluid();
   void move_markers();
   void redistribute_markers();
@@ -101,14 +109,12 @@ class Simulation {
   Scene scene_;
   fluid::NavierStokes fluid_;
   std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
-  std::optional<vesicle::MeshRedistribution> redistribution_;
+  std::unique_ptr<ExternalForces> external_forces_;
+  std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none
   std::vector<Redistribution> last_redistributions_;
   PhaseSeconds seconds_;
 };
 
-/// The boundary velocity of the scene's flow.
-/// \throws SceneError for flow.type = "custom", which only a program can give
-fluid::BoundaryVelocity flow_of(const Scene& scene);
 /// The scene's box as a grid.
 fluid::Grid grid_of(const Scene& scene);
 /// The scene's fluid parameters.

@@ -115,6 +115,10 @@ class NavierStokes {
   // step(); only inner faces are read.
   FaceVector& force();
   const FaceVector& force() const;
+  // A force density that is the same everywhere, beside force(): what drives a flow along a periodic axis. Zero at first,
+  // kept by step().
+  Vector3& uniform_force();
+  const Vector3& uniform_force() const;
 
   // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver
   // for the exception). Throws

@@ -57,11 +57,12 @@ class StokesSolver {
   // place, if a value is not finite and > 0, or if the field is on another grid.
   void update(const Viscosity& mu);
 
-  // force: density (per volume) at the inner faces. u and p hold the initial guess and take the solution; faces on walls
+  // force: density (per volume) at the inner faces; uniform_force is added to it everywhere. u and p hold the initial guess and take the solution; faces on walls
   // and ghosts of u are set from the walls (as last evaluated), ghosts of p are not. Allocates nothing. Same bits for
   // every number of threads, if no more than at the last update. Throws std::invalid_argument if a grid differs, and
   // std::runtime_error if the force or the guess is not finite.
-  StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p);
+  StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
+                     const Vector3& uniform_force = {});
 
   const Grid& grid() const;
   const StokesOptions& options() const;

@@ -1,12 +1,13 @@
-#include "duct_series.h"
-
-#include <fmt/format.h>
+#include "fluid/duct_series.h"
 
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "message.h"
+
+namespace vesiflow::fluid {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -39,7 +40,7 @@ double solution(double y, double z, double d, double e) {
 
 DuctSeries::DuctSeries(double d, double e) : d_(d), e_(e), axis_(0) {
   if (!(std::isfinite(d) && std::isfinite(e) && d > 0 && e > 0))
-    throw std::invalid_argument(fmt::format("half-widths {:g} and {:g}: must be finite and > 0", d, e));
+    throw std::invalid_argument(message("duct: half-widths are ", d, " and ", e, "; they must be finite and > 0"));
   axis_ = solution(0, 0, d, e);
 }
 
@@ -49,3 +50,5 @@ double DuctSeries::velocity(double y, double z) const {
   if (y >= d_ || z >= e_) return 0;
   return solution(y, z, d_, e_) / axis_;
 }
+
+}  // namespace vesiflow::fluid

@@ -1,0 +1,17 @@
+// Vesicles in any flow that a scene can name.
+#include "coupling/run.h"
+#include "scene_app.h"
+
+namespace {
+
+int vesicles(int argc, char** argv) {
+  return run_scene_app(
+      {.name = "vesicles", .description = "Computes vesicles in a flow, both from a scene file.", .flow = {}}, argc,
+      argv);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return vesiflow::coupling::exit_code_of(vesicles, argc, argv);
+}

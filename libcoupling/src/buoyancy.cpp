@@ -1,0 +1,16 @@
+#include "coupling/buoyancy.h"
+
+namespace vesiflow::coupling {
+
+void add_buoyancy(const vesicle::Surface& surface, const vesicle::Vector3& weight, vesicle::VectorField& force) {
+  const vesicle::VectorField& x = surface.positions();
+  const vesicle::ScalarField& area = surface.area_weight();
+  vesicle::Vector3 centre;
+  for (int axis = 0; axis < 3; ++axis) centre(axis) = (x.col(axis) * area).sum() / surface.area();
+  for (Eigen::Index m = 0; m < x.rows(); ++m) {
+    const double pressure = weight.dot(x.row(m).matrix().transpose() - centre);
+    force.row(m) += pressure * surface.normal().row(m);
+  }
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "coupling/repulsion.h"
+#include "coupling/scene.h"
+#include "fluid/grid.h"
+#include "immersed_vesicle.h"
+
+namespace vesiflow::coupling {
+
+/// The forces on membranes that are not their own: buoyancy and repulsion. Costs nothing where the scene has none.
+class ExternalForces {
+ public:
+  ExternalForces(const Scene& scene, const fluid::Grid& grid,
+                 std::span<const std::unique_ptr<ImmersedVesicle>> vesicles);
+
+  /// Sets ImmersedVesicle::force of all vesicles, whose own forces are up to date.
+  void compute();
+
+  /// Force of all membranes on the fluid, component by component.
+  fluid::Vector3 total() const;
+
+ private:
+  std::span<const std::unique_ptr<ImmersedVesicle>> vesicles_;
+  std::vector<vesicle::Vector3> weights_;  // density difference times gravity; empty without gravity
+  std::optional<Repulsion> repulsion_;
+  std::vector<RepelledMembrane> repelled_;
+};
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,145 @@
+#include "coupling/flow.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/errors.h"
+#include "fluid/duct_series.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+using fluid::Vector3;
+
+constexpr std::array<bool, 3> along_all{true, true, true}, along_x_and_y{true, true, false},
+    along_x{true, false, false};
+
+Flow rest() {
+  return {.velocity = [](const Vector3&, double) { return Vector3{}; },
+          .may_be_periodic = along_all,
+          .description = "none: the walls are at rest"};
+}
+
+Flow shear(double rate) {
+  return {.velocity =
+              [rate](const Vector3& x, double) {
+                return Vector3{rate * x[2], 0.0, 0.0};
+              },
+          .may_be_periodic = along_x_and_y,
+          .greatest_gradient = std::abs(rate),
+          .description = "steady shear, evaluated once"};
+}
+
+Flow oscillating_shear(double rate, double omega) {
+  return {.velocity =
+              [rate, omega](const Vector3& x, double t) {
+                return Vector3{rate * std::cos(omega * t) * x[2], 0.0, 0.0};
+              },
+          .steady = false,
+          .may_be_periodic = along_x_and_y,
+          .greatest_gradient = std::abs(rate),
+          .angular_frequency = omega,
+          .description = fmt::format("shear oscillating with angular frequency {:g}", omega)};
+}
+
+Flow extension(double rate, Extension kind) {
+  const Vector3 rates = kind == Extension::planar ? Vector3{rate, 0.0, -rate} : Vector3{rate, -rate / 2, -rate / 2};
+  return {.velocity =
+              [rates](const Vector3& x, double) {
+                return Vector3{rates[0] * x[0], rates[1] * x[1], rates[2] * x[2]};
+              },
+          .greatest_gradient = std::abs(rate),
+          .description =
+              fmt::format("steady {} extension, evaluated once", kind == Extension::planar ? "planar" : "uniaxial")};
+}
+
+struct Centre {
+  double middle, half;
+};
+Centre centre_of(const Scene& scene, std::size_t axis) {
+  const double low = scene.domain.lower[axis], high = scene.domain.upper[axis];
+  return {0.5 * (low + high), 0.5 * (high - low)};
+}
+
+Flow plane_poiseuille(double peak, const Centre& z) {
+  return {.velocity =
+              [peak, z](const Vector3& x, double) {
+                const double s = (x[2] - z.middle) / z.half;
+                return Vector3{peak * (1.0 - s * s), 0.0, 0.0};
+              },
+          .may_be_periodic = along_x_and_y,
+          .driving_force = 2.0 * peak / (z.half * z.half),
+          .greatest_gradient = 2.0 * std::abs(peak) / z.half,
+          .description = "steady plane Poiseuille, evaluated once"};
+}
+
+// The series costs a microsecond or more. Grids are walked along x, on which it does not depend: one value is remembered.
+class DuctVelocity {
+ public:
+  DuctVelocity(double peak, const Centre& y, const Centre& z)
+      : series_(y.half, z.half), peak_(peak), y_(y), z_(z), last_y_(y.middle), last_z_(z.middle), last_(peak) {}
+  Vector3 operator()(const Vector3& x, double) {
+    if (x[1] != last_y_ || x[2] != last_z_) {
+      last_y_ = x[1];
+      last_z_ = x[2];
+      last_ = peak_ * series_.velocity(x[1] - y_.middle, x[2] - z_.middle);
+    }
+    return {last_, 0.0, 0.0};
+  }
+
+ private:
+  fluid::DuctSeries series_;
+  double peak_;
+  Centre y_, z_;
+  double last_y_, last_z_, last_;
+};
+
+Flow duct(double peak, const Centre& y, const Centre& z) {
+  const fluid::DuctSeries series(y.half, z.half);
+  // Steepest in the middle of a wall.
+  constexpr double near = 1e-3;
+  const double slope = std::max(series.velocity(y.half * (1.0 - near), 0.0) / (near * y.half),
+                                series.velocity(0.0, z.half * (1.0 - near)) / (near * z.half));
+  return {.velocity = DuctVelocity(peak, y, z),
+          .may_be_periodic = along_x,
+          .driving_force = peak * series.pressure_gradient(),
+          .greatest_gradient = std::abs(peak) * slope,
+          .description = "steady duct flow, evaluated once"};
+}
+
+}  // namespace
+
+Flow flow_of(const Scene& scene) {
+  const Scene::Flow& flow = scene.flow;
+  switch (flow.type) {
+    case FlowType::rest:
+      return rest();
+    case FlowType::shear:
+      return shear(flow.rate);
+    case FlowType::oscillating_shear:
+      return oscillating_shear(flow.rate, flow.angular_frequency);
+    case FlowType::extension:
+      return extension(flow.rate, flow.extension);
+    case FlowType::plane_poiseuille:
+      return plane_poiseuille(flow.peak_velocity, centre_of(scene, 2));
+    case FlowType::duct:
+      return duct(flow.peak_velocity, centre_of(scene, 1), centre_of(scene, 2));
+    case FlowType::custom:
+      break;
+  }
+  throw SceneError(
+      "flow.type = \"custom\": stands for the flow of a program of one's own (docs/first_app.md); a scene file can "
+      "name "
+      "rest, shear, oscillating_shear, extension, plane_poiseuille or duct");
+}
+
+Flow custom_flow(const fluid::BoundaryVelocity& velocity, bool steady) {
+  return {.velocity = velocity,
+          .steady = steady,
+          .may_be_periodic = along_all,
+          .description = steady ? "custom, evaluated once" : "custom, evaluated in each step"};
+}
+
+}  // namespace vesiflow::coupling
