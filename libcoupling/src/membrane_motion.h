@@ -36,6 +36,10 @@ class MembraneMotion {
   virtual void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
                        MarkerVelocities& velocities) = 0;
 
+  /// Force per area, shape (markers, 3), that the fluid must feel in the coming step beside that of the predicted state: what
+  /// past corrections of this motion owe to its momentum. Null if nothing.
+  virtual const vesicle::VectorField* owed_force() const { return nullptr; }
+
   /// U~ of an interpolated U at the membrane's present state, before any step has made it.
   virtual void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) = 0;
 

@@ -61,6 +61,17 @@ class ShapeFollowing final : public MembraneMotion {
     divergence_ = strain_ + r * strain_step_;
     membrane.move_to(velocity_, divergence_);
     predicted_strain_ = divergence_;
+    has_owed_ = false;
+    if (owed_coefficients_.degrees() > 0 && scene_.fluid.inertia != fluid::Inertia::none && env("TH", 1) > 0) {
+      has_owed_ = true;
+      const double re = scene_.fluid.reynolds_number / dt * env("TH", 1);
+      work_ = owed_coefficients_;
+      as_vector(work_) *= re * (1 + r);
+      if (older_owed_.degrees() > 0) as_vector(work_) -= re * r * r / (1 + r) * as_vector(older_owed_);
+      harmonics_.synthesis(work_, steps_);
+      membrane.surface().projector_divergence(steps_.col(3), owed_);
+      owed_ += steps_.leftCols<3>();
+    }
     return true;
   }
 
@@ -68,6 +79,12 @@ class ShapeFollowing final : public MembraneMotion {
                MarkerVelocities& velocities) override {
     const vesicle::Surface& surface = membrane.surface();
     tension_ = std::max(0.0, membrane.tension().maxCoeff());
+    {
+      const ScalarField& h = surface.mean_curvature();
+      const double mean = (h * surface.area_weight()).sum() / surface.area();
+      curvature_variance_ = 4 * ((h - mean).square() * surface.area_weight()).sum() / surface.area();
+      if (env("VERB", 0) > 0) std::fprintf(stderr, "4 var H %.3f\n", curvature_variance_);
+    }
     velocity_at(surface.positions(), velocities.fluid);
     find_rates(surface, velocities);
     surface.gradient(predicted_strain_, gradient_);
@@ -112,12 +129,34 @@ class ShapeFollowing final : public MembraneMotion {
     };
     const auto report = gmres_.solve(apply, right_, env("TOL", 1e-4), solution_);
     if (env("VERB", 0) > 0) std::fprintf(stderr, "gmres %d %.1e |eta| %.2e\n", report.iterations, report.residual, solution_.norm());
+    // impulses owed
+    work_ = step_coefficients_;
     as_vector(step_coefficients_) = r * as_vector(step_coefficients_) + solution_;
+    if (owed_coefficients_.degrees() > 0) older_owed_ = owed_coefficients_;
+    owed_coefficients_.resize(degrees_, 4);
+    for (int n = 0; n < degrees_; ++n)
+      for (int m = 0; m <= n; ++m)
+        for (int f = 0; f < 4; ++f) {
+          const auto change = step_coefficients_(f, n, m) - r * work_(f, n, m);
+          owed_coefficients_(f, n, m) = f < 3 ? -env("CB", 1.5) * normal_force(n) * responses_[n].normal2 / responses_[n].normal * change
+                                              : (n == 0 ? env("C0", 1.5) * responses_[2].normal2 / responses_[2].normal : env("CG", 1.5) * responses_[n].along2 / responses_[n].along) * scene_.membrane.sigma0 * change;
+        }
     harmonics_.synthesis(step_coefficients_, steps_);
     position_step_ = steps_.leftCols<3>();
     strain_step_ = steps_.col(3);
     gradient_ = positions_ + position_step_ - surface.positions();
+    velocity_ = gradient_;
     conservation_->correct_displacement(surface, gradient_);
+    if (env("OC", 1) > 0) {
+      velocity_ = gradient_ - velocity_;
+      harmonics_.analysis(velocity_, velocity_coefficients_);
+      for (int n = 0; n < degrees_; ++n)
+        for (int m = 0; m <= n; ++m)
+          for (int f = 0; f < 3; ++f) {
+            const auto& q = responses_[std::max(n, 2)];
+            owed_coefficients_(f, n, m) += env("OC", 1) * a0 / dt * q.normal2 / (q.normal * q.normal) * velocity_coefficients_(f, n, m);
+          }
+    }
     gradient_ += surface.positions();
     position_step_ = gradient_ - positions_;
     positions_ = gradient_;
@@ -137,6 +176,8 @@ class ShapeFollowing final : public MembraneMotion {
     position_step_.setZero();
     strain_step_.setZero();
   }
+
+  const VectorField* owed_force() const override { return has_owed_ ? &owed_ : nullptr; }
 
  private:
   static Eigen::Index size_of(const Coefficients& c) { return Eigen::Index(2) * c.fields() * c.degrees() * (c.degrees() + 1) / 2; }
@@ -160,19 +201,48 @@ class ShapeFollowing final : public MembraneMotion {
     }
   }
 
-  double tension_stiffness(int n, double dt, double a0) const {
-    const double k = (n + 0.5) / radius_, a = scene_.fluid.reynolds_number * a0 / dt;
+  // Responses of a plane membrane, a sheet smeared by the delta function, per degree.
+  struct Response { double along = 0, along2 = 0, normal = 0, normal2 = 0; };
+  void find_responses(double dt, double a0) {
+    if (dt == response_dt_ && a0 == response_a0_) return;
+    response_dt_ = dt; response_a0_ = a0;
     const double mu = 0.5 * (1 + scene_.fluid.viscosity_ratio);
-    const double m = std::sqrt(k * k + a / mu);
-    return env("CG", 1) * dt * scene_.membrane.sigma0 * k * k / (2 * mu * (m + k));
+    const double a = scene_.fluid.inertia == fluid::Inertia::none ? 0 : scene_.fluid.reynolds_number * a0 / dt;
+    const double h = scene_.spacing() * env("KER", 1);
+    responses_.resize(degrees_);
+    for (int n = 0; n < degrees_; ++n) {
+      const double k = (n + 0.5) / radius_;
+      Response r;
+      // kz = k tan(t)
+      const int points = 400;
+      for (int i = 0; i < points; ++i) {
+        const double t = (i + 0.5) * M_PI / 2 / points, kz = k * std::tan(t), w = M_PI / 2 / points * k / std::pow(std::cos(t), 2) / M_PI;
+        const double kk = k * k + kz * kz, d = a + mu * kk, phi = std::exp(-0.3818 * kz * kz * h * h);
+        r.along += w * phi * kz * kz / (kk * d); r.along2 += w * phi * kz * kz / (kk * d * d);
+        r.normal += w * phi * k * k / (kk * d); r.normal2 += w * phi * k * k / (kk * d * d);
+      }
+      const double in_plane = std::max(std::exp(-env("INP", 0.19) * k * k * h * h), env("FLOOR", 0.1));
+      r.along *= in_plane; r.normal *= in_plane; r.along2 *= in_plane; r.normal2 *= in_plane;
+      responses_[n] = r;
+    }
+  }
+  double tension_stiffness(int n, double dt, double a0) {
+    find_responses(dt, a0);
+    const double k = (n + 0.5) / radius_;
+    if (n == 0 && env("N0", 1) > 0) return env("C0", 1.5) * dt * scene_.membrane.sigma0 * curvature_variance_ * responses_[2].normal;
+    return env("CG", 1.5) * dt * scene_.membrane.sigma0 * k * k * responses_[n].along;
   }
   double damping(int n) const { return env("GAM", 0) * std::pow(n / (degrees_ - 1.0), env("POW", 8)); }
-  double bending_stiffness(int n, double dt, double a0) const {
-    const double k = (n + 0.5) / radius_, a = scene_.fluid.reynolds_number * a0 / dt;
-    const double mu = 0.5 * (1 + scene_.fluid.viscosity_ratio);
-    const double m = std::sqrt(k * k + a / mu);
-    return env("CB", 1) * dt * k * k *(k * k / (4 * scene_.membrane.capillary_number) + env("CS", 1) * tension_) * k / (2 * mu * m * (m + k));
+  double normal_force(int n) const {
+    const double k = (n + 0.5) / radius_;
+    return k * k * (k * k / (4 * scene_.membrane.capillary_number) + tension_);
   }
+  double bending_stiffness(int n, double dt, double a0) {
+    find_responses(dt, a0);
+    return env("CB", 1.5) * dt * normal_force(n) * responses_[n].normal;
+  }
+  std::vector<Response> responses_;
+  double response_dt_ = 0, response_a0_ = 0;
 
   Scene scene_;
   int degrees_;
@@ -187,12 +257,14 @@ class ShapeFollowing final : public MembraneMotion {
   Eigen::ArrayXXd rates_, steps_;
   Coefficients velocity_coefficients_, rate_coefficients_, step_coefficients_;
   Eigen::ArrayXXd positions_and_strain_;
-  Coefficients work_;
+  Coefficients work_, owed_coefficients_, older_owed_;
+  VectorField owed_;
+  bool has_owed_ = false;
   Eigen::VectorXd scale_, right_, solution_;
   ScalarField slip_theta_, slip_phi_;
   Eigen::ArrayXXd theta_, phi_;
   Gmres gmres_{40};
-  double tension_ = 0;
+  double tension_ = 0, curvature_variance_ = 0;
   double radius_ = 1, previous_dt_ = 0;
   bool fresh_ = true;
 };

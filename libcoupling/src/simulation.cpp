@@ -115,6 +115,8 @@ void Simulation::compute_forces() {
   for (auto& v : vesicles_) {
     v->transfer.update(v->membrane.positions());
     v->transfer.spread(v->force(), v->membrane.surface().area_weight(), fluid_.force());
+    if (const vesicle::VectorField* owed = v->motion->owed_force())
+      v->transfer.spread(*owed, v->membrane.surface().area_weight(), fluid_.force());
   }
   if (!fluid_.grid().has_walls()) hold_the_fluid();
 }
