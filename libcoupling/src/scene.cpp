@@ -45,11 +45,14 @@ void check_time(const Scene& scene, const std::string& name) {
 }
 
 void check_physics(const Scene& scene, const std::string& name) {
-  if (scene.fluid.viscosity_ratio != 1.0)
-    throw SceneError(
-        fmt::format("{}: fluid.viscosity_ratio = {:g}: this version computes equal viscosities only; "
-                    "allowed is 1",
-                    name, scene.fluid.viscosity_ratio));
+  const bool coupled = scene.has_viscosity_contrast() && scene.fluid.inertia != fluid::Inertia::none &&
+                       scene.fluid.viscous_treatment == fluid::ViscousTreatment::implicit;
+  if (coupled && scene.fluid.velocity_solver == SolverChoice::fft)
+    throw SceneError(fmt::format(
+        "{}: fluid.velocity_solver = \"fft\": cannot solve for three components coupled by a viscosity that "
+        "varies, which fluid.viscous_treatment = \"implicit\" asks for; take auto, pcg or cholmod, or another "
+        "treatment",
+        name));
   if (scene.mesh.normal_degrees > scene.mesh.latitudes)
     throw SceneError(fmt::format("{}: mesh.normal_degrees = {}: must be <= mesh.latitudes = {}", name,
                                  scene.mesh.normal_degrees, scene.mesh.latitudes));
@@ -130,6 +133,16 @@ double Scene::spacing() const {
 
 double Scene::tension_number() const {
   return time.step * membrane.sigma0 / (4.0 * spacing());
+}
+
+double Scene::viscosity_ratio(std::size_t vesicle) const {
+  return vesicles.at(vesicle).viscosity_ratio.value_or(fluid.viscosity_ratio);
+}
+
+bool Scene::has_viscosity_contrast() const {
+  for (std::size_t i = 0; i < vesicles.size(); ++i)
+    if (viscosity_ratio(i) != 1.0) return true;
+  return false;
 }
 
 long Scene::steps() const {
