@@ -10,6 +10,7 @@
 #include "coupling/simulation.h"
 #include "fluid/elliptic_solver.h"
 #include "vesicle/mesh_control.h"
+#include "viscosity_plan.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -52,8 +53,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
     coarsest = std::min(coarsest, scene.latitudes(i));
     finest = std::max(finest, scene.latitudes(i));
   }
-  const auto fluid_bytes =
-      static_cast<double>(fluid::NavierStokes::estimate_memory(grid_of(scene), fluid_parameters_of(scene)));
+  const ViscosityPlan viscosity = plan_viscosity(scene);
+  const double fluid_bytes = viscosity.fluid_bytes + viscosity.indicator_bytes;
   plan.head("Resolution");
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
   plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
@@ -109,16 +110,15 @@ std::string describe_solver(const fluid::EllipticProblem& problem, SolverChoice 
 
 void describe_fluid(Plan& plan, const Scene& scene) {
   const fluid::Grid grid = grid_of(scene);
+  const ViscosityPlan viscosity = plan_viscosity(scene);
   const bool steps_in_time = scene.fluid.inertia != fluid::Inertia::none;
   plan.part(scene.fluid.inertia == fluid::Inertia::full, "convection", "skew-symmetric, extrapolated",
             "fluid.inertia is not \"full\"");
   plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler", "fluid.inertia = \"none\"");
-  plan.part(steps_in_time, "viscosity",
-            "implicit: " + describe_solver(fluid::EllipticProblem::velocity(grid, fluid::EllipticForm::laplacian, 1.0,
-                                                                            scene.fluid.viscosity_ratio),
-                                           scene.fluid.velocity_solver),
-            "fluid.inertia = \"none\"");
-  plan.part(false, "indicator, variable viscosity", "", "fluid.viscosity_ratio = 1");
+  plan.part(steps_in_time, "viscosity", "implicit: " + viscosity.solve, "fluid.inertia = \"none\"");
+  plan.part(viscosity.is_variable, "indicator", viscosity.indicator, "the viscosity ratio of every vesicle is 1");
+  plan.part(viscosity.is_variable, "variable viscosity", viscosity.treatment,
+            "the viscosity ratio of every vesicle is 1");
   plan.part(steps_in_time, "pressure",
             "rotational correction: " +
                 describe_solver({grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0},

@@ -44,30 +44,30 @@ void check_time(const Scene& scene, const std::string& name) {
 void check_flow(const Scene& scene, const std::string& name) {
   if (scene.flow.type == FlowType::custom) return;
   const Flow flow = flow_of(scene);
-  const auto& periodic = scene.domain.periodic;
+  const auto list = [](const std::array<bool, 3>& axes) {
+    return fmt::format("[{}, {}, {}]", axes[0], axes[1], axes[2]);
+  };
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (periodic[axis] && !flow.may_be_periodic[axis])
-      throw SceneError(
-          fmt::format("{}: domain.periodic = [{}, {}, {}]: the flow of flow.type does not repeat along {}; allowed is "
-                      "[{}, {}, {}], "
-                      "or false instead of true",
-                      name, periodic[0], periodic[1], periodic[2], "xyz"[axis], flow.may_be_periodic[0],
-                      flow.may_be_periodic[1], flow.may_be_periodic[2]));
-  const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency);
-  if (fastest * scene.time.step > largest_turn_per_step)
+    if (scene.domain.periodic[axis] && !flow.may_be_periodic[axis])
+      throw SceneError(fmt::format("{}: domain.periodic = {}: this flow.type does not repeat along {}; allowed is {}",
+                                   name, list(scene.domain.periodic), "xyz"[axis], list(flow.may_be_periodic)));
+  const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency), step = scene.time.step;
+  if (fastest * step > largest_turn_per_step)
     throw SceneError(
-        fmt::format("{}: time.step = {:g}: the flow turns or changes at a rate of up to {:.4g}; that times time.step "
-                    "must be <= {:g}, "
-                    "so time.step <= {:.4g}",
-                    name, scene.time.step, fastest, largest_turn_per_step, largest_turn_per_step / fastest));
+        fmt::format("{}: time.step = {:g}: the flow changes a velocity at a rate of up to {:.4g}, which times "
+                    "time.step must be <= {:g}; so time.step <= {:.4g}",
+                    name, step, fastest, largest_turn_per_step, largest_turn_per_step / fastest));
 }
 
 void check_physics(const Scene& scene, const std::string& name) {
-  if (scene.fluid.viscosity_ratio != 1.0)
-    throw SceneError(
-        fmt::format("{}: fluid.viscosity_ratio = {:g}: this version computes equal viscosities only; "
-                    "allowed is 1",
-                    name, scene.fluid.viscosity_ratio));
+  const bool coupled = scene.has_viscosity_contrast() && scene.fluid.inertia != fluid::Inertia::none &&
+                       scene.fluid.viscous_treatment == fluid::ViscousTreatment::implicit;
+  if (coupled && scene.fluid.velocity_solver == SolverChoice::fft)
+    throw SceneError(fmt::format(
+        "{}: fluid.velocity_solver = \"fft\": cannot solve for three components coupled by a viscosity that "
+        "varies, which fluid.viscous_treatment = \"implicit\" asks for; take auto, pcg or cholmod, or another "
+        "treatment",
+        name));
 }
 
 // Where the number of latitudes of vesicle i was said.
@@ -179,6 +179,16 @@ double Scene::spontaneous_curvature(std::size_t i) const {
 
 int Scene::latitudes(std::size_t i) const {
   return vesicles.at(i).latitudes.value_or(mesh.latitudes);
+}
+
+double Scene::viscosity_ratio(std::size_t vesicle) const {
+  return vesicles.at(vesicle).viscosity_ratio.value_or(fluid.viscosity_ratio);
+}
+
+bool Scene::has_viscosity_contrast() const {
+  for (std::size_t i = 0; i < vesicles.size(); ++i)
+    if (viscosity_ratio(i) != 1.0) return true;
+  return false;
 }
 
 long Scene::steps() const {

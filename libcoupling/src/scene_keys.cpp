@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::string_view marker_motions[] = {"euler", "ab2", "shape_following"};
 constexpr Range latitudes{.low = 8, .high = 256};
+// What has been tried, in libfluid and here.
+const Range viscosity_ratios = Range::between(0.05, 100.0);
 
 template <class Enum>
 void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::initializer_list<std::string_view> names) {
@@ -46,6 +48,7 @@ void visit_preset(Scene& scene, KeyVisitor& v) {
 
 void apply_preset(Scene& scene) {
   if (scene.method.preset != Preset::paper) return;
+  scene.fluid.viscous_treatment = fluid::ViscousTreatment::explicit_;
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;
   scene.mesh.slip = vesicle::SlipReference::interpolated;
@@ -70,7 +73,8 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   choice_of(v, "flow.start", scene.flow.start, {"flow", "rest"});
 
   v.number("fluid.reynolds_number", scene.fluid.reynolds_number, Range::positive());
-  v.number("fluid.viscosity_ratio", scene.fluid.viscosity_ratio, Range::positive());
+  v.number("fluid.viscosity_ratio", scene.fluid.viscosity_ratio, viscosity_ratios);
+  choice_of(v, "fluid.viscous_treatment", scene.fluid.viscous_treatment, {"explicit", "extrapolated", "implicit"});
   choice_of(v, "fluid.inertia", scene.fluid.inertia, {"full", "unsteady", "none"});
   choice_of(v, "fluid.velocity_solver", scene.fluid.velocity_solver, {"auto", "fft", "cholmod", "pcg"});
   choice_of(v, "fluid.pressure_solver", scene.fluid.pressure_solver, {"auto", "fft", "cholmod", "pcg"});
@@ -124,6 +128,7 @@ void visit_keys(VesicleScene& vesicle, KeyVisitor& v) {
   v.harmonics("harmonics", vesicle.harmonics);
   v.optional_text("file", vesicle.file);
   v.optional_integer("fit_degrees", vesicle.fit_degrees, Range::between(2, 64));
+  v.optional_number("viscosity_ratio", vesicle.viscosity_ratio, viscosity_ratios);
   v.number("radius", vesicle.radius, Range::positive());
   v.vector("centre", vesicle.centre, Range::any());
   v.vector("rotation_axis", vesicle.rotation_axis, Range::any());

@@ -11,6 +11,7 @@
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
 #include "phase_timer.h"
+#include "viscosity_contrast.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -23,6 +24,16 @@ Scene checked(Scene scene, FlowType type) {
   scene.flow.type = type;
   check_scene(scene, "scene");
   return scene;
+}
+
+std::unique_ptr<ViscosityContrast> contrast_of(const Scene& scene) {
+  return scene.has_viscosity_contrast() ? std::make_unique<ViscosityContrast>(scene, grid_of(scene)) : nullptr;
+}
+
+fluid::FluidParameters fluid_parameters_of(const Scene& scene, const ViscosityContrast* contrast) {
+  fluid::FluidParameters parameters = fluid_parameters_of(scene);
+  if (contrast != nullptr) parameters.viscosity = contrast->field();
+  return parameters;
 }
 
 std::string blow_up_advice(const Scene& scene) {
@@ -56,7 +67,7 @@ fluid::SolverOptions solver_options_of(SolverChoice choice) {
 fluid::FluidParameters fluid_parameters_of(const Scene& scene) {
   fluid::FluidParameters parameters;
   parameters.reynolds_number = scene.fluid.reynolds_number;
-  parameters.viscosity = scene.fluid.viscosity_ratio;
+  parameters.viscous_treatment = scene.fluid.viscous_treatment;
   parameters.inertia = scene.fluid.inertia;
   parameters.velocity_solver = solver_options_of(scene.fluid.velocity_solver);
   parameters.pressure_solver = solver_options_of(scene.fluid.pressure_solver);
@@ -71,7 +82,9 @@ Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, 
 Simulation::Simulation(const Scene& scene, const Flow& flow) : Simulation(scene, flow, FlowType::custom) {}
 
 Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
-    : scene_(checked(scene, type)), fluid_(grid_of(scene), fluid_parameters_of(scene), flow.velocity, flow.steady) {
+    : scene_(checked(scene, type)),
+      contrast_(contrast_of(scene_)),
+      fluid_(grid_of(scene_), fluid_parameters_of(scene_, contrast_.get()), flow.velocity, flow.steady) {
   if (scene_.flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow.velocity(x, 0.0); });
   if (scene_.domain.periodic[0]) fluid_.uniform_force()[0] = flow.driving_force;
@@ -90,8 +103,9 @@ Simulation::~Simulation() = default;
 void Simulation::step() {
   try {
     compute_forces();  // Steps 1 and 2: coefficients, geometry, forces, spreading
-    advance_fluid();   // Step 3: Navier-Stokes
-    move_markers();    // Steps 4 and 5: interpolation, mesh control, markers, target areas
+    update_viscosity();
+    advance_fluid();  // Step 3: Navier-Stokes
+    move_markers();   // Steps 4 and 5: interpolation, mesh control, markers, target areas
     redistribute_markers();
   } catch (const std::domain_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
@@ -129,9 +143,19 @@ void Simulation::hold_the_fluid() {
     fluid_.uniform_force()[axis] = -total[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
 }
 
+// Of the same markers as the forces.
+void Simulation::update_viscosity() {
+  if (!contrast_) return;
+  const PhaseTimer timer(seconds_.indicator);
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) contrast_->add(i, vesicles_[i]->membrane.surface());
+  contrast_->update();
+}
+
 void Simulation::advance_fluid() {
   try {
     fluid_.step(scene_.time.step);
+  } catch (const std::invalid_argument& error) {  // the velocity solver is made in the first step, or refused
+    throw SceneError(fmt::format("fluid.velocity_solver: {}", error.what()));
   } catch (const std::runtime_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
   }
@@ -212,10 +236,15 @@ const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const {
   return vesicles_.at(i)->velocities.fluid;
 }
 
+const fluid::Field<fluid::Cell>* Simulation::viscosity() const {
+  return contrast_ ? contrast_->field().get() : nullptr;
+}
+
 PhaseSeconds Simulation::phase_seconds() const {
   PhaseSeconds all = seconds_;
   all.mesh -= all.interpolate;  // interpolation is asked for inside the move
   all.fluid_convection = fluid_.timings().convection;
+  all.fluid_viscous = fluid_.timings().viscous;
   all.fluid_momentum = fluid_.timings().momentum;
   all.fluid_projection = fluid_.timings().projection;
   return all;

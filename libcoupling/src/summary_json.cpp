@@ -41,7 +41,9 @@ Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions) {
 Json phases_of(const PhaseSeconds& s, double output_seconds) {
   return {{"membrane", s.membrane},
           {"spread", s.spread},
+          {"indicator", s.indicator},
           {"fluid_convection", s.fluid_convection},
+          {"fluid_viscous", s.fluid_viscous},
           {"fluid_momentum", s.fluid_momentum},
           {"fluid_projection", s.fluid_projection},
           {"interpolate", s.interpolate},

@@ -93,6 +93,26 @@ TEST(ManyVesicles, AreDrivenApartByRepulsion) {
   EXPECT_FALSE(overlap(with->membrane(0).surface(), with->membrane(1).positions()));
 }
 
+// Where a periodic box is cut makes no difference: a vesicle half outside, or some periods away, moves as one in the middle.
+TEST(ManyVesicles, AreTheSameAcrossPeriodicSides) {
+  const auto moved_to = [](double x, double y, double viscosity_ratio) {
+    Scene scene = small_scene({"domain.periodic=[true, true, false]"});
+    scene.fluid.viscosity_ratio = viscosity_ratio;
+    scene.vesicles[0].centre = {x, y, 0.0};
+    Simulation simulation(scene);
+    advance(simulation, 10);
+    vesicle::VectorField markers = simulation.membrane(0).positions();
+    markers.col(0) -= x;
+    markers.col(1) -= y;
+    return markers;
+  };
+  for (const double ratio : {1.0, 5.0}) {
+    const vesicle::VectorField middle = moved_to(0.0, 0.0, ratio);
+    EXPECT_LT((moved_to(3.0, -2.5, ratio) - middle).abs().maxCoeff(), 1e-9) << ratio;  // whole cells of 1/4
+    EXPECT_LT((moved_to(-23.0, 12.75, ratio) - middle).abs().maxCoeff(), 1e-9) << ratio;
+  }
+}
+
 Scene heavy_sphere(double density_difference, const Overrides& overrides = {}) {
   Overrides all = {"flow.type=rest", "gravity.acceleration=[0, 0, -2]", "time.step=1/384"};
   all.insert(all.end(), overrides.begin(), overrides.end());

@@ -139,6 +139,35 @@ TEST_F(RunTest, RestartRefusesAVesicleWithAnotherPropertyOfItsOwn) {
             std::string::npos);
 }
 
+// The field of viscosity is made anew from the markers; the velocity and the pressure to start iterations from are in the state.
+TEST_F(RunTest, RestartContinuesBitForBitWithEveryTreatmentOfTheViscosity) {
+  const Overrides contrast{"fluid.viscosity_ratio=5", "domain.cells=16", "time.step=1/32", "time.end=0.375",
+                           "output.checkpoint_every=0.125"};
+  for (const char* treatment : {"explicit", "extrapolated", "implicit"}) {
+    Overrides overrides = contrast;
+    overrides.push_back(std::string("fluid.viscous_treatment=") + treatment);
+    compare_restart(folder_ / treatment, overrides, 2);
+  }
+  Overrides without_inertia = contrast;
+  without_inertia.emplace_back("fluid.inertia=none");
+  compare_restart(folder_ / "none", without_inertia, 2);
+}
+
+TEST_F(RunTest, RestartContinuesBitForBitWithVesiclesOfTheirOwnViscosity) {
+  Scene scene = small_scene({"domain.cells=[36, 16, 16]", "domain.upper=[9, 3, 3]", "time.step=1/32", "time.end=0.25",
+                             "output.checkpoint_every=0.125"});
+  scene.vesicles.push_back(scene.vesicles[0]);
+  scene.vesicles[0].viscosity_ratio = 8.0;
+  scene.vesicles[1].centre = {5.0, 0.0, 0.0};
+  scene.vesicles[1].viscosity_ratio = 0.2;
+  run_scene(scene, at("whole"));
+  Scene half = scene;
+  half.time.end = 0.125;
+  run_scene(half, at("parts"));
+  run_scene(scene, at("parts"), at("parts") / "checkpoint.h5");
+  expect_same_state(at("whole") / "checkpoint.h5", at("parts") / "checkpoint.h5", scene);
+}
+
 TEST_F(RunTest, RestartContinuesTheFilesOfItsFolder) {
   const std::string cadence = "output.diagnostics_every=0.125";  // so that the first part ends on it
   run_scene(small_scene({cadence}), at("whole"));

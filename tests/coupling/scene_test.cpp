@@ -50,6 +50,22 @@ TEST(Scene, PresetSetsDefaultsThatKeysStillOverride) {
   EXPECT_EQ(parse(sphere).membrane.volume, vesicle::VolumeControl::projection);
 }
 
+TEST(Scene, VesiclesMayHaveAViscosityRatioOfTheirOwn) {
+  const Scene scene = parse("[fluid]\nviscosity_ratio = 5\n" + sphere + sphere,
+                            {"vesicles.1.centre=[4, 0, 0]", "vesicles.1.viscosity_ratio=20"});
+  EXPECT_EQ(scene.viscosity_ratio(0), 5.0);
+  EXPECT_EQ(scene.viscosity_ratio(1), 20.0);
+  EXPECT_TRUE(scene.has_viscosity_contrast());
+  EXPECT_FALSE(
+      parse("[fluid]\nviscosity_ratio = 5\n" + sphere, {"vesicles.0.viscosity_ratio=1"}).has_viscosity_contrast());
+  EXPECT_FALSE(parse(sphere).has_viscosity_contrast());
+}
+
+TEST(Scene, PaperPresetTakesThePapersViscousTerm) {
+  EXPECT_EQ(parse(sphere).fluid.viscous_treatment, fluid::ViscousTreatment::extrapolated);
+  EXPECT_EQ(parse(sphere, {"method.preset=paper"}).fluid.viscous_treatment, fluid::ViscousTreatment::explicit_);
+}
+
 TEST(Scene, TensionNumberIsAnotherWayToGiveSigma0) {
   const std::string text = "[time]\nstep = \"1/192\"\n" + sphere;
   EXPECT_NEAR(parse(text, {"membrane.g=25/6"}).membrane.sigma0, 600.0, 1e-9);
@@ -69,7 +85,11 @@ TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of("[fluid]\nreynolds_number = -1\n" + sphere),
                {"test.toml:2", "fluid.reynolds_number = -1", "> 0"});
   expect_parts(message_of("[fluid]\nviscosity_ratio = -2.0\n" + sphere),
-               {"test.toml:2", "fluid.viscosity_ratio", "> 0"});
+               {"test.toml:2", "fluid.viscosity_ratio", "in [0.05, 100]"});
+  expect_parts(message_of("[fluid]\nviscous_treatment = \"semi\"\n" + sphere),
+               {"test.toml:2", "fluid.viscous_treatment", "semi", "explicit, extrapolated, implicit"});
+  expect_parts(message_of(sphere, {"vesicles.0.viscosity_ratio=0.01"}),
+               {"vesicles.0.viscosity_ratio = 0.01", "in [0.05, 100]"});
   expect_parts(message_of("[domain]\ncells = \"many\"\n" + sphere), {"test.toml:2", "domain.cells", "many", "whole"});
   expect_parts(message_of("[domain]\nlower = [0, 0]\n" + sphere), {"domain.lower", "three numbers"});
   expect_parts(message_of("[time]\nstep = nan\n" + sphere), {"test.toml:2", "time.step", "> 0"});
@@ -114,7 +134,9 @@ TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
                {"vesicles.0", "prolate and oblate"});
   expect_parts(message_of(sphere + sphere), {"vesicles.0 and vesicles.1 overlap"});
   expect_parts(message_of("title = \"empty\"\n"), {"vesicles"});
-  expect_parts(message_of(sphere, {"fluid.viscosity_ratio=5"}), {"fluid.viscosity_ratio = 5", "allowed is 1"});
+  expect_parts(
+      message_of(sphere, {"fluid.viscosity_ratio=5", "fluid.viscous_treatment=implicit", "fluid.velocity_solver=fft"}),
+      {"fluid.velocity_solver = \"fft\"", "fluid.viscous_treatment", "auto, pcg or cholmod"});
 }
 
 TEST(Scene, RefusesPeriodicAxesAndStepsThatTheFlowForbids) {

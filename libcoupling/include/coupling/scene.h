@@ -35,7 +35,8 @@ struct VesicleScene {
   /// What the file of shape coefficients or mesh says. No key: loading a scene fills it from the file, or from the
   /// checkpoint; programs that fill a Scene themselves may set it instead of `file`.
   std::optional<vesicle::Coefficients> surface;
-  double radius = 1.0;  ///< effective radius (3V/4 pi)^(1/3)
+  std::optional<double> viscosity_ratio;  ///< of this vesicle, where it is not fluid.viscosity_ratio
+  double radius = 1.0;                    ///< effective radius (3V/4 pi)^(1/3)
   std::array<double, 3> centre{0.0, 0.0, 0.0};
   std::array<double, 3> rotation_axis{0.0, 1.0, 0.0};
   double rotation_deg = 0.0;  ///< turns the shape, whose symmetry axis is z, about rotation_axis
@@ -73,7 +74,8 @@ struct Scene {
   } flow;
   struct Fluid {
     double reynolds_number = 1e-3;
-    double viscosity_ratio = 1.0;
+    double viscosity_ratio = 1.0;  ///< lambda = mu_i/mu_o of the vesicles that have none of their own
+    fluid::ViscousTreatment viscous_treatment = fluid::ViscousTreatment::extrapolated;
     fluid::Inertia inertia = fluid::Inertia::full;
     SolverChoice velocity_solver = SolverChoice::automatic;
     SolverChoice pressure_solver = SolverChoice::automatic;
@@ -137,6 +139,10 @@ struct Scene {
   /// g = dt sigma0/(4 mu h), the number that decides whether the explicit tension is stable (below 7 to 8), of the stiffest
   /// vesicle.
   double tension_number() const;
+  /// lambda = mu_i/mu_o of a vesicle: its own, or else that of the fluid.
+  double viscosity_ratio(std::size_t vesicle) const;
+  /// Whether the viscosity is another one inside some vesicle. If not, there is no field of it and no indicator.
+  bool has_viscosity_contrast() const;
   /// Steps from 0 to time.end, the last one at or just beyond it.
   long steps() const;
 };

@@ -19,6 +19,8 @@ struct PhaseSeconds {
   double membrane = 0.0;          ///< geometry and forces
   double spread = 0.0;            ///< clearing, weights, spreading
   double fluid_convection = 0.0;  ///< explicit right-hand side
+  double indicator = 0.0;         ///< field of viscosity, where the vesicles' differs
+  double fluid_viscous = 0.0;     ///< what this field costs the fluid beside its solves
   double fluid_momentum = 0.0;    ///< three velocity solves
   double fluid_projection = 0.0;  ///< pressure solve and correction
   double interpolate = 0.0;
@@ -47,6 +49,7 @@ struct SimulationState {
 
 struct ImmersedVesicle;
 class ExternalForces;
+class ViscosityContrast;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
 class Simulation {
@@ -90,6 +93,8 @@ class Simulation {
   const vesicle::Membrane& membrane(std::size_t vesicle);
   /// Interpolated fluid velocity that moved the markers in the last step (markers x 3).
   const vesicle::VectorField& marker_velocity(std::size_t vesicle) const;
+  /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
+  const fluid::Field<fluid::Cell>* viscosity() const;
   PhaseSeconds phase_seconds() const;
 
   SimulationState state() const;
@@ -101,12 +106,14 @@ class Simulation {
 
   void compute_forces();
   void hold_the_fluid();
+  void update_viscosity();
   void advance_fluid();
   void move_markers();
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
 
   Scene scene_;
+  std::unique_ptr<ViscosityContrast> contrast_;  // where there is one
   fluid::NavierStokes fluid_;
   std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
   std::unique_ptr<ExternalForces> external_forces_;
@@ -117,7 +124,7 @@ class Simulation {
 
 /// The scene's box as a grid.
 fluid::Grid grid_of(const Scene& scene);
-/// The scene's fluid parameters.
+/// The scene's fluid parameters, with viscosity 1: a contrast needs the membranes.
 fluid::FluidParameters fluid_parameters_of(const Scene& scene);
 
 }  // namespace vesiflow::coupling
