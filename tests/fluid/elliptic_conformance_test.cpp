@@ -59,13 +59,22 @@ const Backend backends[] = {
 #endif
 };
 
-// Power of two, odd, prime, flat, with unequal mesh widths; and one grid for all mixes of walls, periodic axes and mirrors.
+// Walls and periodic axes in all mixes, mirrors in most.
+std::vector<test::Topology> many_topologies() {
+  std::vector<test::Topology> topologies;
+  for (int periodic = 0; periodic < 8; ++periodic) topologies.push_back({.periodic = periodic});
+  for (const int mirror : {1, 2, 4, 3, 6, 7}) topologies.push_back({.mirror = mirror});
+  for (const auto& [periodic, mirror] : {std::pair(1, 2), {2, 5}, {4, 3}}) topologies.push_back({periodic, mirror});
+  return topologies;
+}
+
+// Power of two, odd, prime, flat, with unequal mesh widths.
 const std::pair<Grid, std::vector<test::Topology>> grids[] = {
     {Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), {{}, {.periodic = 7}, {.mirror = 6}}},
     {Grid({-1, 0, 0}, {1, 3, 1}, {9, 5, 7}), {{}, {.periodic = 1}, {.mirror = 1}}},
     {Grid({0, 0, 0}, {1, 2, 3}, {7, 11, 5}), {{}, {.periodic = 6}, {.mirror = 2}, {.mirror = 6}}},
     {Grid({0, 0, -1}, {4, 1, 1}, {16, 5, 4}), {{}, {.periodic = 3}, {.mirror = 3}, {.periodic = 3, .mirror = 4}}},
-    {Grid({0, 0, 0}, {1, 0.8, 1.3}, {6, 5, 7}), test::all_topologies()}};
+    {Grid({0, 0, 0}, {1, 0.8, 1.3}, {6, 5, 7}), many_topologies()}};
 
 const Grid one_grid({0, 0, 0}, {1, 2, 3}, {9, 6, 8});
 
@@ -286,20 +295,19 @@ TEST_P(EllipticConformance, GivesTheSameBitsForEveryNumberOfThreads) {
   // Large enough for threads (libfluid/src/planes.h), but for factorisations, whose time would be seconds.
   const bool factors = std::string(backend().name).find("cholmod") != std::string::npos;
   const Grid shape = factors ? one_grid : Grid({0, 0, 0}, {1, 2, 3}, {31, 27, 23});
-  for (const Grid& grid : {shape, test::with_topology(shape, {.mirror = 6})}) {
-    for_each_kind([&](const auto& problem) {
-      const EllipticProblem p = problem(grid, 0.0);
-      const Numbers rhs(p, 21);
-      const std::array<Numbers, 3> x{Numbers(p), Numbers(p), Numbers(p)};
-      const std::array<int, 3> threads{1, 2, 5};
-      for (int t = 0; t < 3; ++t) {
-        const test::ThreadCount count(threads[t]);
-        make_elliptic_solver(p, backend().options)->solve(rhs, x[t]);
-      }
-      EXPECT_TRUE(x[0].same_bits(x[1]));
-      EXPECT_TRUE(x[0].same_bits(x[2]));
-    });
-  }
+  const Grid grid = test::with_topology(shape, {.mirror = 2});
+  for_each_kind([&](const auto& problem) {
+    const EllipticProblem p = problem(grid, 0.0);
+    const Numbers rhs(p, 21);
+    const std::array<Numbers, 3> x{Numbers(p), Numbers(p), Numbers(p)};
+    const std::array<int, 3> threads{1, 2, 5};
+    for (int t = 0; t < 3; ++t) {
+      const test::ThreadCount count(threads[t]);
+      make_elliptic_solver(p, backend().options)->solve(rhs, x[t]);
+    }
+    EXPECT_TRUE(x[0].same_bits(x[1]));
+    EXPECT_TRUE(x[0].same_bits(x[2]));
+  });
 }
 
 const auto parameter_name = [](const auto& parameters) {
