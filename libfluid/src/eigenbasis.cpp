@@ -15,7 +15,7 @@ Basis eigenbasis(const EllipticProblem& problem, int axis) {
 
 std::vector<double> eigenvalues(const EllipticProblem& problem, int axis) {
   const Basis basis = eigenbasis(problem, axis);
-  const double first_mode = basis == Basis::mixed_cells                                 ? 0.5
+  const double first_mode = basis == Basis::mixed_cells                               ? 0.5
                             : basis == Basis::cosine_cells || basis == Basis::fourier ? 0.0
                                                                                       : 1.0;
   const double step = std::numbers::pi / problem.grid.cells[axis] * (basis == Basis::fourier ? 1.0 : 0.5);

@@ -24,7 +24,8 @@ Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3
                                           " are needed, and at most ", max_cells, " allowed"));
     }
     if (periodic[axis] && mirror[axis]) {
-      throw std::invalid_argument(message("grid: axis ", axis, " is periodic and has a mirror; it can be one of the two"));
+      throw std::invalid_argument(
+          message("grid: axis ", axis, " is periodic and has a mirror; it can only be one of the two"));
     }
   }
 }

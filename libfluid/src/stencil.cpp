@@ -70,8 +70,7 @@ void constant_laplacian_row(const EllipticProblem& problem, int block, ConstView
 }  // namespace
 
 GhostedBlocks::GhostedBlocks(const EllipticProblem& problem)
-    : count_(problem.blocks()),
-      periodic_(problem.grid.periodic) {
+    : count_(problem.blocks()), periodic_(problem.grid.periodic) {
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) reflection_[axis][side] = reflection(problem, axis, side);
   }

@@ -31,7 +31,8 @@ class GhostedBlocks {
   int count_;
   std::array<bool, 3> periodic_;
   std::array<Centring, 3> centring_{};
-  std::array<std::array<double, 2>, 3> reflection_{};  // by axis and side: ghost / value inside, half a cell from the end
+  std::array<std::array<double, 2>, 3>
+      reflection_{};  // by axis and side: ghost / value inside, half a cell from the end
   std::array<AlignedArray, 3> storage_;
   std::array<View, 3> points_, unknowns_;
 };

@@ -104,8 +104,8 @@ std::string case_name(const testing::TestParamInfo<Basis>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ends, Columns,
-                         testing::Values(Basis::sine_points, Basis::sine_cells, Basis::cosine_cells,
-                                         Basis::mixed_cells, Basis::fourier),
+                         testing::Values(Basis::sine_points, Basis::sine_cells, Basis::cosine_cells, Basis::mixed_cells,
+                                         Basis::fourier),
                          case_name);
 
 }  // namespace

@@ -148,8 +148,8 @@ TEST_P(ForEachKind, SolvesTheDiscreteEquationsOrRefusesThem) {
       for (const double alpha : {0.0, 7.0}) {
         const Grid grid = test::with_topology(shape, topology);
         const EllipticProblem p = kind.problem(grid, alpha, viscosity(grid, coefficient));
-        SCOPED_TRACE(testing::Message() << grid.cells[0] << 'x' << grid.cells[1] << 'x' << grid.cells[2]
-                                        << ", " << topology << ", alpha " << alpha);
+        SCOPED_TRACE(testing::Message() << grid.cells[0] << 'x' << grid.cells[1] << 'x' << grid.cells[2] << ", "
+                                        << topology << ", alpha " << alpha);
         if (is_refused(backend, p)) {
           const char* what = p.form == EllipticForm::stress ? "stress" : "variable";
           EXPECT_THAT([&] { make_elliptic_solver(p, backend.options); },

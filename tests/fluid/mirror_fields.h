@@ -101,8 +101,8 @@ double difference_inside(const Field<Tag>& part, const Field<Tag>& whole) {
 }
 
 inline double difference_inside(const FaceVector& part, const FaceVector& whole) {
-  return std::max({difference_inside(part.x, whole.x), difference_inside(part.y, whole.y),
-                   difference_inside(part.z, whole.z)});
+  return std::max(
+      {difference_inside(part.x, whole.x), difference_inside(part.y, whole.y), difference_inside(part.z, whole.z)});
 }
 
 // Over all points and ghosts.
@@ -167,9 +167,8 @@ class SymmetricFunctions {
 // Between 1 and the ratio.
 inline std::shared_ptr<Field<Cell>> symmetric_viscosity(const Grid& part, double ratio) {
   const SymmetricFunctions functions(part);
-  return sample_viscosity(part, [&](const Vector3& r) {
-    return std::pow(ratio, 0.5 * (1.0 + std::sin(4.0 * functions.even(r))));
-  });
+  return sample_viscosity(
+      part, [&](const Vector3& r) { return std::pow(ratio, 0.5 * (1.0 + std::sin(4.0 * functions.even(r)))); });
 }
 
 }  // namespace vesiflow::fluid::test

@@ -50,7 +50,8 @@ BoundaryVelocity walls_of(const SymmetricFunctions& functions) {
 }
 
 SolverOptions exact_solver(const FluidParameters& parameters) {
-  const bool coupled = !parameters.viscosity.is_constant() && parameters.viscous_treatment == ViscousTreatment::implicit;
+  const bool coupled =
+      !parameters.viscosity.is_constant() && parameters.viscous_treatment == ViscousTreatment::implicit;
   if (!coupled) return FftOptions{};
 #ifdef VESIFLOW_WITH_CHOLMOD
   return CholmodOptions{};

@@ -155,8 +155,7 @@ TEST(VelocityMultigrid, IsSymmetricAndPositive) {
 TEST(VelocityMultigrid, CyclesConverge) {
   for (const test::Topology& topology : topologies) {
     for (const int cells : {12, 24}) {
-      const Grid grid =
-          test::with_topology(Grid({-1, 0.5, -0.5}, {1, 2.5, 1.5}, {cells, cells + 1, cells}), topology);
+      const Grid grid = test::with_topology(Grid({-1, 0.5, -0.5}, {1, 2.5, 1.5}, {cells, cells + 1, cells}), topology);
       for (const double ratio : {0.05, 1.0, 100.0}) {
         const Viscosity mu = drop(grid, ratio);
         VelocityMultigrid multigrid(grid);
@@ -176,7 +175,8 @@ TEST(VelocityMultigrid, CyclesConverge) {
           multigrid.apply(residual.u(), correction.u());
           add(-1.0, correction.u(), error.u());
         }
-        EXPECT_LT(std::pow(energy() / first, 1.0 / cycles), 0.7) << cells << " cells, ratio " << ratio << ", " << topology;
+        EXPECT_LT(std::pow(energy() / first, 1.0 / cycles), 0.7)
+            << cells << " cells, ratio " << ratio << ", " << topology;
       }
     }
   }
