@@ -11,8 +11,8 @@ namespace vesiflow::fluid {
 
 // Solves -s x_{k-1} + (shift + 2 s) x_k - s x_{k+1} = scale b_k, k = 0 .. n-1, for several columns x that stand side by
 // side and have their own shift >= 0. What is outside 0 .. n-1 follows from the basis of the ends: x is zero one step
-// outside (sine_points), continues oddly or evenly about half a step outside (sine_cells, cosine_cells; mixed_cells: evenly
-// below 0 and oddly above n-1), or has the period n (fourier).
+// outside (sine_points), continues oddly or evenly about half a step outside (sine_cells, cosine_cells; mixed_cells:
+// evenly below 0 and oddly above n-1), or has the period n (fourier).
 class ColumnSolver {
  public:
   // For up to `columns` columns at a time.

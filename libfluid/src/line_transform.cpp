@@ -7,9 +7,9 @@
 // and backwards, up to the factor 2,  S = cos t y_k + sin t y_{n-k},   D = i (sin t y_k - cos t y_{n-k}).
 // The sine transform is the cosine transform of (-1)^j x_j in reversed order.
 //
-// Cells with mixed ends: the same order with signs, v = (x_0, x_2, x_4, .., -x_5, -x_3, -x_1), is every second number of the
-// continuation, and with t = pi (2k+1) / 4n
-//   y_k = sum_j 2 cos(pi (4j+1) (2k+1) / 4n) v_j = exp(-i t) W_k + exp(i t) W_{n-1-k},   W the transform of exp(-i pi j / n) v_j,
+// Cells with mixed ends: the same order with signs, v = (x_0, x_2, x_4, .., -x_5, -x_3, -x_1), is every second number of
+// the continuation. With t = pi (2k+1) / 4n, and W the Fourier transform of exp(-i pi j / n) v_j,
+//   y_k = sum_j 2 cos(pi (4j+1) (2k+1) / 4n) v_j = exp(-i t) W_k + exp(i t) W_{n-1-k},
 // for a pair of lines as one complex line, n even or odd. That is, as above with n-1-k for n-k,
 //   y_k = cos t S - i sin t D,   y_{n-1-k} = sin t S + i cos t D,   S = W_k + W_{n-1-k},   D = W_k - W_{n-1-k}.
 //

@@ -20,8 +20,8 @@ using BoundaryVelocity = std::function<Vector3(const Vector3& position, double t
 // A component normal to a wall has faces on it and takes the wall's value there. A tangential component has
 // points half a cell away on either side: its ghost is 2 * wall - interior. Ghosts beyond normal faces follow
 // the same line, 2 * wall face - inner face, and so do edges and corners, so that a linear flow is continued
-// exactly. Across a periodic axis ghosts are the points of the other end. The component normal to a mirror is zero on its
-// faces there and minus the inner face in the ghost; tangential components have the point inside as their ghost.
+// exactly. Across a periodic axis ghosts are the points of the other end. The component normal to a mirror is zero on
+// the faces there and minus the inner face in the ghost; tangential components have the point inside as their ghost.
 //
 // Steady data is sampled once; other data at each call of evaluate() with a new time.
 class WallVelocity {
@@ -34,9 +34,9 @@ class WallVelocity {
   // through the walls. Data that has it is sampled at face centres with an error O(h^2); such a remainder is
   // spread evenly over all the walls' normal velocity. Throws std::invalid_argument with the flux if it is
   // more than max_relative_flux of the flux of |u.n|, if a value is not finite, if the function differs at the two
-  // ends of a periodic axis, or if its component normal to a mirror is not zero there; the data is then what it was before.
-  // With mirrors the function is called in the computed part of the box only: that the rest is its reflection is taken on
-  // trust.
+  // ends of a periodic axis, or if its component normal to a mirror is not zero there; the data is then what it was
+  // before. With mirrors the function is called in the computed part of the box only: that the rest is its reflection is
+  // taken on trust.
   void evaluate(double time);
   static constexpr double max_relative_flux = 0.01;
 
@@ -47,7 +47,8 @@ class WallVelocity {
 
   // Sets the faces on walls and mirrors, and on periodic axes the last face, which is the first.
   void set_normal_faces(FaceVector& u) const;
-  // Sets all ghosts from the walls, the mirrors and the points inside; the faces of set_normal_faces() must have been set.
+  // Sets all ghosts from the walls, the mirrors and the points inside; the faces of set_normal_faces() must have been
+  // set.
   void fill_ghosts(FaceVector& u) const;
   // Adds mu times the part of the 7-point Laplacian of each component that comes from the walls to the
   // unknowns of rhs: what the homogeneous operator of EllipticProblem leaves out.

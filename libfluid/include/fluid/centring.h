@@ -29,8 +29,8 @@ inline constexpr std::array<Centring, 3> face_centrings{Centring::face_x, Centri
 // "cell", "face_x", ... for messages.
 const char* name(Centring centring);
 
-// Whether points of this centring lie on the walls (or the mirror) normal to the axis (true for face_x and axis 0, and so
-// on).
+// Whether points of this centring lie on the walls (or the mirror) normal to the axis (true for face_x and axis 0, and
+// so on).
 constexpr bool is_face_normal(Centring centring, int axis) {
   return static_cast<int>(centring) == axis + 1;
 }

@@ -17,10 +17,10 @@ using Vector3 = std::array<double, 3>;
 // faces normal to it, the faces on the two walls included (see field.h).
 //
 // An axis with a mirror holds the upper half of a box, twice as long and with twice the cells, in which everything is
-// symmetric about the plane of the lower end. There is no wall there: across it the velocity component along the axis is
-// odd (and so zero on it), the other components, the pressure and the viscosity are even. The upper end is a wall.
-// What is computed on the half is, to round-off, what would be on the whole. Up to three axes may have a mirror: two leave
-// a quarter of the box to compute.
+// symmetric about the plane of the lower end. There is no wall there: across it the velocity component along the axis
+// is odd (and so zero on it), the other components, the pressure and the viscosity are even. The upper end is a wall.
+// What is computed on the half is, to round-off, what would be on the whole. Up to three axes may have a mirror: two
+// leave a quarter of the box to compute.
 struct Grid {
   static constexpr int min_cells = 4;
   static constexpr int max_cells = 65536;  // per axis: indices of the whole array then fit 64 bits
