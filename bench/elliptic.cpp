@@ -27,6 +27,7 @@ struct Case {
   Centring centring;
   BoundaryCondition boundary;
   std::array<bool, 3> periodic;
+  std::array<bool, 3> mirror = {false, false, false};
 };
 
 constexpr auto dirichlet = BoundaryCondition::dirichlet;
@@ -39,7 +40,10 @@ const Case cases[] = {{"pressure", Centring::cell, neumann, {false, false, false
                       {"pressure, x y periodic", Centring::cell, neumann, {true, true, false}},
                       {"pressure, all periodic", Centring::cell, neumann, {true, true, true}},
                       {"u, x y periodic", Centring::face_x, dirichlet, {true, true, false}},
-                      {"w, x y periodic", Centring::face_z, dirichlet, {true, true, false}}};
+                      {"w, x y periodic", Centring::face_z, dirichlet, {true, true, false}},
+                      {"u, y mirror", Centring::face_x, dirichlet, {false, false, false}, {false, true, false}},
+                      {"w, x y mirror", Centring::face_z, dirichlet, {false, false, false}, {true, true, false}},
+                      {"u, y z mirror", Centring::face_x, dirichlet, {false, false, false}, {false, true, true}}};
 
 // Field-like arrays of one problem.
 struct Arrays {
@@ -65,7 +69,7 @@ struct Row {
 };
 
 Row measure(const Case& c, const std::array<int, 3>& cells, int repetitions, unsigned planning, Triad& triad) {
-  const Grid grid({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]}, cells, c.periodic);
+  const Grid grid({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]}, cells, c.periodic, c.mirror);
   const EllipticProblem problem(grid, c.centring, c.boundary, c.boundary == neumann ? 0.0 : 0.5, 1.0);
   const auto solver = make_elliptic_solver(problem, FftOptions{});
   const auto reference = make_elliptic_solver(problem, FftOptions{FftOptions::Transforms::fftw_r2r});

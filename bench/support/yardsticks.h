@@ -47,6 +47,7 @@ class R2rPair {
     if (problem.grid.periodic[axis]) return forward ? FFTW_R2HC : FFTW_HC2R;
     if (problem.boundary == fluid::BoundaryCondition::neumann) return forward ? FFTW_REDFT10 : FFTW_REDFT01;
     if (is_face_normal(problem.centring(), axis)) return FFTW_RODFT00;
+    if (problem.grid.mirror[axis]) return FFTW_REDFT11;
     return forward ? FFTW_RODFT10 : FFTW_RODFT01;
   }
 

@@ -34,6 +34,20 @@ void repeat_into_ghosts(const View& field, int axis, int period) {
   }
 }
 
+// Ghosts below the mirror of an axis, of a component along that axis or of one that is even.
+void reflect_into_ghosts(const View& field, int axis, bool normal) {
+  const auto [axis_a, axis_b] = wall_axes[axis];
+  const std::ptrdiff_t step = stride(field, axis);
+  const int from_a = axis_a < axis ? -1 : 0;
+  const int from_b = axis_b < axis ? -1 : 0;
+  for (int b = from_b; b < field.extent[axis_b] - from_b; ++b) {
+    for (int a = from_a; a < field.extent[axis_a] - from_a; ++a) {
+      double* line = field.data + a * stride(field, axis_a) + b * stride(field, axis_b);
+      line[-step] = normal ? -line[step] : line[0];
+    }
+  }
+}
+
 }  // namespace
 
 WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool steady)
@@ -45,8 +59,10 @@ WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool ste
     const auto extent = point_extent(grid, face_centrings[component]);
     for (int axis = 0; axis < 3; ++axis) {
       const std::array<int, 2> along{extent[wall_axes[axis][0]], extent[wall_axes[axis][1]]};
-      const std::size_t size = grid.periodic[axis] ? 0 : static_cast<std::size_t>(along[0] + 2) * (along[1] + 2);
-      for (int side = 0; side < 2; ++side) planes_.push_back({component, axis, side, along, std::vector<double>(size)});
+      const std::size_t size = static_cast<std::size_t>(along[0] + 2) * (along[1] + 2);
+      for (int side = 0; side < 2; ++side) {
+        planes_.push_back({component, axis, side, along, std::vector<double>(grid.has_wall(axis, side) ? size : 0)});
+      }
     }
   }
   if (!steady) spare_planes_ = planes_;
@@ -70,7 +86,7 @@ void WallVelocity::evaluate(double time) {
 
 void WallVelocity::sample_all() {
   for (Plane& plane : planes_) {
-    if (grid_.periodic[plane.axis]) continue;
+    if (!grid_.has_wall(plane.axis, plane.side)) continue;
     if (plane.component == plane.axis) check_periodicity(plane);
     sample(plane);
   }
@@ -82,6 +98,13 @@ double WallVelocity::sampled_at(const Vector3& position, int component) const {
   if (std::isfinite(value)) return value;
   throw std::invalid_argument(message("boundary: velocity component ", component, " is ", value, " at (", position[0],
                                       ", ", position[1], ", ", position[2], "), time ", time_));
+}
+
+void WallVelocity::check_symmetry(double value, const Vector3& position, int component) const {
+  if (std::abs(value) <= 1e-10) return;
+  throw std::invalid_argument(message("boundary: velocity component ", component, " of the walls is ", value, " at (",
+                                      position[0], ", ", position[1], ", ", position[2], "), on the mirror of axis ",
+                                      component, "; it must be zero there"));
 }
 
 // Compares the function at the two ends of the periodic axes along a wall.
@@ -119,6 +142,10 @@ void WallVelocity::sample(Plane& plane) const {
       Vector3 position = point_position(grid_, face_centrings[plane.component], index[0], index[1], index[2]);
       position[plane.axis] = plane.side == 0 ? grid_.lower[plane.axis] : grid_.upper[plane.axis];
       plane.at(a, b) = sampled_at(position, plane.component);
+      if (plane.component != plane.axis && grid_.mirror[plane.component] && index[plane.component] == 0) {
+        check_symmetry(plane.at(a, b), position, plane.component);
+        plane.at(a, b) = 0.0;
+      }
     }
   }
   // Along a periodic axis, points a period apart are the same.
@@ -129,7 +156,7 @@ void WallVelocity::sample(Plane& plane) const {
       at(-1) = at(period - 1);
       at(count) = at(count - period);
     } else {
-      at(-1) = 2 * at(0) - at(1);
+      at(-1) = !grid_.mirror[axis] ? 2 * at(0) - at(1) : plane.component == axis ? -at(1) : at(0);
       at(count) = 2 * at(count - 1) - at(count - 2);
     }
   };
@@ -146,9 +173,9 @@ void WallVelocity::balance_flux() {
   double gross = 0.0;
   double area = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (grid_.periodic[axis]) continue;
     const double face_area = grid_.cell_volume() / grid_.spacing(axis);
     for (int side = 0; side < 2; ++side) {
+      if (!grid_.has_wall(axis, side)) continue;
       const Plane& wall = plane(axis, axis, side);
       double sum = 0.0;
       for (int b = 0; b < wall.extent[1]; ++b) {
@@ -171,8 +198,8 @@ void WallVelocity::balance_flux() {
                                         " is accepted as the error of sampling)"));
   }
   for (int axis = 0; axis < 3; ++axis) {
-    if (grid_.periodic[axis]) continue;
     for (int side = 0; side < 2; ++side) {
+      if (!grid_.has_wall(axis, side)) continue;
       const double correction = (side == 0 ? net : -net) / area;
       for (double& value : planes_[axis * 6 + axis * 2 + side].values) value += correction;
     }
@@ -190,7 +217,8 @@ void WallVelocity::set_normal_faces(FaceVector& u) const {
     for (int b = 0; b < low.extent[1]; ++b) {
       for (int a = 0; a < low.extent[0]; ++a) {
         double* face = field.data + a * stride(field, axis_a) + b * stride(field, axis_b);
-        if (!grid_.periodic[axis]) face[0] = low.at(a, b);
+        if (grid_.has_wall(axis, 0)) face[0] = low.at(a, b);
+        if (grid_.mirror[axis]) face[0] = 0.0;
         face[last] = grid_.periodic[axis] ? face[0] : high.at(a, b);
       }
     }
@@ -206,8 +234,11 @@ void WallVelocity::fill_ghosts(FaceVector& u) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (grid_.periodic[axis]) {
         repeat_into_ghosts(field, axis, grid_.cells[axis]);
-      } else {
-        for (int side = 0; side < 2; ++side) fill_wall_ghosts(plane(component, axis, side), field);
+        continue;
+      }
+      if (grid_.mirror[axis]) reflect_into_ghosts(field, axis, component == axis);
+      for (int side = 0; side < 2; ++side) {
+        if (grid_.has_wall(axis, side)) fill_wall_ghosts(plane(component, axis, side), field);
       }
     }
   }
@@ -232,7 +263,7 @@ void WallVelocity::fill_wall_ghosts(const Plane& wall, const View& field) const 
 void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
   const auto fields = rhs.points();
   for (const Plane& wall : planes_) {
-    if (grid_.periodic[wall.axis]) continue;
+    if (!grid_.has_wall(wall.axis, wall.side)) continue;
     const View& field = fields[wall.component];
     const int axis = wall.axis;
     const auto [axis_a, axis_b] = wall_axes[axis];
@@ -241,7 +272,7 @@ void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
     const double factor = mu * (on_wall ? 1.0 : 2.0) / (h * h);
     const int inset = on_wall ? 1 : 0;
     double* first = field.data + (wall.side == 0 ? inset : field.extent[axis] - 1 - inset) * stride(field, axis);
-    // Along the wall, the points of the component that lie on other walls are not unknowns.
+    // Along the wall, the points of the component that lie on other walls or mirrors are not unknowns.
     const Centring centring = face_centrings[wall.component];
     const auto unknowns = unknown_extent(grid_, centring);
     const int first_a = first_unknown(grid_, centring, axis_a);

@@ -4,6 +4,7 @@
 // which are stable as r < 1, and have for coefficients the same few rows in every plane. b is continued as x is, with
 // period P (n, or 2n, or 2n + 2 between zeros), so that
 //   y_{-1} = c sum_m r^m b_{-1-m} = c (sum of m < P) / (1 - r^P),
+// or with the sign changed after P = 2n if the lower end is even and the upper odd, and 1 + r^P for 1 - r^P,
 // and x_n follows from x_{n-1} by the continuation, or in the periodic case from the like sum over y. Sums end where r^m
 // is below round-off. That is after a few terms for most columns.
 //
@@ -63,6 +64,7 @@ std::size_t ColumnSolver::scratch_size(int n, int columns) {
 }
 
 bool ColumnSolver::is_direct(double shift, double s) const {
+  if (ends_ == Basis::mixed_cells) return false;
   const bool zeros = ends_ == Basis::sine_points || ends_ == Basis::sine_cells;
   return shift == 0.0 || (zeros && half_period_ * decay_rate(shift / s) < 1.0);
 }
@@ -148,6 +150,8 @@ void ColumnSolver::start_upwards(const double* b, std::ptrdiff_t stride, int rea
       const double exponent = -half_period_ * decay_rate(shift[i] / s);
       if (ends_ == Basis::fourier) {
         sum /= -std::expm1(exponent);
+      } else if (ends_ == Basis::mixed_cells) {
+        sum = (sum - std::exp(exponent) * rows.far[i]) / (1.0 + std::exp(2.0 * exponent));
       } else {
         sum = (sum + std::exp(exponent) * rows.far[i]) / -std::expm1(2.0 * exponent);
       }
@@ -166,7 +170,8 @@ void ColumnSolver::start_downwards(int reach, const double* shift, double s, con
     case Basis::sine_points:
       std::fill_n(start, columns, 0.0);
       break;
-    case Basis::sine_cells:  // x_n = -x_{n-1}
+    case Basis::sine_cells:
+    case Basis::mixed_cells:  // x_n = -x_{n-1}
       for (int i = 0; i < columns; ++i) start[i] = -last[i] / (1.0 + r[i]);
       break;
     case Basis::cosine_cells:  // x_n = x_{n-1}

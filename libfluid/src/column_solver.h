@@ -11,8 +11,8 @@ namespace vesiflow::fluid {
 
 // Solves -s x_{k-1} + (shift + 2 s) x_k - s x_{k+1} = scale b_k, k = 0 .. n-1, for several columns x that stand side by
 // side and have their own shift >= 0. What is outside 0 .. n-1 follows from the basis of the ends: x is zero one step
-// outside (sine_points), continues oddly or evenly about half a step outside (sine_cells, cosine_cells), or has the
-// period n (fourier).
+// outside (sine_points), continues oddly or evenly about half a step outside (sine_cells, cosine_cells; mixed_cells:
+// evenly below 0 and oddly above n-1), or has the period n (fourier).
 class ColumnSolver {
  public:
   // For up to `columns` columns at a time.
@@ -26,7 +26,7 @@ class ColumnSolver {
   static std::size_t scratch_size(int n, int columns);
 
   // Number k of column i is at x[i + k * stride]: b, and then the solution. If the shift of a column (there must
-  // be no more than one) is zero and there are no zeros at the ends, its mean is removed from b and from x, and that of
+  // be no more than one) is zero and neither end holds x, its mean is removed from b and from x, and that of
   // scale b is returned (else zero).
   double solve(double* x, std::ptrdiff_t stride, int columns, const double* shift, double s, double scale,
                Scratch& scratch) const;

@@ -56,6 +56,11 @@ std::size_t EllipticProblem::unknowns() const {
   return count;
 }
 
+BoundaryCondition EllipticProblem::condition(int block, int axis, int side) const {
+  const bool even = !grid.has_wall(axis, side) && !is_face_normal(centring(block), axis);
+  return even ? BoundaryCondition::neumann : boundary;
+}
+
 bool EllipticProblem::same_structure(const EllipticProblem& other) const {
   return grid == other.grid && form == other.form && boundary == other.boundary && is_vector_ == other.is_vector_ &&
          centring_ == other.centring_;

@@ -9,8 +9,8 @@
 namespace vesiflow::fluid {
 
 Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3>& cells_,
-           const std::array<bool, 3>& periodic_)
-    : lower(lower_), upper(upper_), cells(cells_), periodic(periodic_) {
+           const std::array<bool, 3>& periodic_, const std::array<bool, 3>& mirror_)
+    : lower(lower_), upper(upper_), cells(cells_), periodic(periodic_), mirror(mirror_) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(lower[axis]) || !std::isfinite(upper[axis]) || !(upper[axis] > lower[axis])) {
       throw std::invalid_argument(message("grid: axis ", axis, " runs from ", lower[axis], " to ", upper[axis],
@@ -22,6 +22,10 @@ Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3
     if (cells[axis] < min_cells || cells[axis] > max_cells) {
       throw std::invalid_argument(message("grid: ", cells[axis], " cells along axis ", axis, "; at least ", min_cells,
                                           " are needed, and at most ", max_cells, " allowed"));
+    }
+    if (periodic[axis] && mirror[axis]) {
+      throw std::invalid_argument(
+          message("grid: axis ", axis, " is periodic and has a mirror; it can only be one of the two"));
     }
   }
 }

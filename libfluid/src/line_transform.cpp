@@ -7,6 +7,12 @@
 // and backwards, up to the factor 2,  S = cos t y_k + sin t y_{n-k},   D = i (sin t y_k - cos t y_{n-k}).
 // The sine transform is the cosine transform of (-1)^j x_j in reversed order.
 //
+// Cells with mixed ends: the same order with signs, v = (x_0, x_2, x_4, .., -x_5, -x_3, -x_1), is every second number of
+// the continuation. With t = pi (2k+1) / 4n, and W the Fourier transform of exp(-i pi j / n) v_j,
+//   y_k = sum_j 2 cos(pi (4j+1) (2k+1) / 4n) v_j = exp(-i t) W_k + exp(i t) W_{n-1-k},
+// for a pair of lines as one complex line, n even or odd. That is, as above with n-1-k for n-k,
+//   y_k = cos t S - i sin t D,   y_{n-1-k} = sin t S + i cos t D,   S = W_k + W_{n-1-k},   D = W_k - W_{n-1-k}.
+//
 // Waves. Two real lines have the real parts S_k / 2 and the imaginary parts -i D_k / 2.
 //
 // Points j = 1 .. n-1, between walls 0 and n. With u_j = x_j - x_{n-j} and w_j = x_j + x_{n-j}, j = 1 .. n/2,
@@ -44,6 +50,16 @@ PointsMethod points_method(int n) {
   return n <= 128 && without_factors_up_to_13(n) > 1 ? PointsMethod::sum : PointsMethod::extend;
 }
 
+// Rows become c S - i s D and s S + i c D of their sum S and difference D.
+void combine(double* low, double* high, double c, double s) {
+  for (int l = 0; l < lanes; l += 4) {
+    const Vector4 sum = load4(low + l) + load4(high + l);
+    const Vector4 difference = times_i(load4(low + l) - load4(high + l));
+    store4(low + l, c * sum - s * difference);
+    store4(high + l, s * sum + c * difference);
+  }
+}
+
 }  // namespace
 
 LineTransform::LineTransform(int length, Basis basis, Direction direction)
@@ -55,6 +71,8 @@ LineTransform::LineTransform(int length, Basis basis, Direction direction)
       output_(length) {
   if (basis == Basis::sine_points) {
     plan_points();
+  } else if (basis == Basis::mixed_cells) {
+    plan_mixed_cells();
   } else {
     plan_cells();
   }
@@ -84,6 +102,19 @@ void LineTransform::plan_cells() {
     modes[i].offset = lanes * (basis_ == Basis::sine_cells ? n - 1 - i : i);
     output_[i].offset = fft_->row(static_cast<int>(output_[i].offset / lanes));
     if (basis_ == Basis::sine_cells && i % 2 == 1) space[i].sign = -1.0;
+  }
+}
+
+void LineTransform::plan_mixed_cells() {
+  const int n = length_;
+  fft_ = std::make_unique<BlockFft>(n, Direction::forward);
+  for (int i = 0; i < n; ++i) {
+    input_[i] = {lanes * (i % 2 == 0 ? i / 2 : n - 1 - i / 2), i % 2 == 0 ? 1.0 : -1.0};
+    output_[i].offset = fft_->row(i);
+    cosine_.push_back(std::cos(0.25 * std::numbers::pi * (2 * i + 1) / n));
+    sine_.push_back(std::sin(0.25 * std::numbers::pi * (2 * i + 1) / n));
+    wave_cosine_.push_back(std::cos(std::numbers::pi * i / n));
+    wave_sine_.push_back(std::sin(std::numbers::pi * i / n));
   }
 }
 
@@ -135,6 +166,11 @@ void LineTransform::execute(double* block, double* result) const {
       if (!forward) prepare_waves(block);
       fft_->execute(block, result);
       if (forward) finish_waves(result);
+      break;
+    case Basis::mixed_cells:
+      prepare_mixed_cells(block);
+      fft_->execute(block, result);
+      finish_mixed_cells(result);
       break;
     default:
       if (!forward) prepare_cells(block);
@@ -231,16 +267,24 @@ void LineTransform::prepare_cells(double* block) const {
 void LineTransform::finish_cells(double* block) const {
   for (int l = 0; l < lanes; l += 4) store4(block + l, 2.0 * load4(block + l));
   for (int k = 1; k <= intervals_ - k; ++k) {
-    double* low = block + fft_->row(k);
-    double* high = block + fft_->row(intervals_ - k);
-    const double c = cosine_[k];
-    const double s = sine_[k];
-    for (int l = 0; l < lanes; l += 4) {
-      const Vector4 sum = load4(low + l) + load4(high + l);
-      const Vector4 difference = times_i(load4(low + l) - load4(high + l));
-      store4(low + l, c * sum - s * difference);
-      store4(high + l, s * sum + c * difference);
+    combine(block + fft_->row(k), block + fft_->row(intervals_ - k), cosine_[k], sine_[k]);
+  }
+}
+
+void LineTransform::prepare_mixed_cells(double* block) const {
+  for (int j = 1; j < length_; ++j) {
+    const double c = wave_cosine_[j];
+    const double s = wave_sine_[j];
+    for (int at = lanes * j; at < lanes * (j + 1); at += 4) {
+      const Vector4 v = load4(block + at);
+      store4(block + at, c * v - s * times_i(v));
     }
+  }
+}
+
+void LineTransform::finish_mixed_cells(double* block) const {
+  for (int k = 0; k <= length_ - 1 - k; ++k) {
+    combine(block + fft_->row(k), block + fft_->row(length_ - 1 - k), cosine_[k], sine_[k]);
   }
 }
 

@@ -14,6 +14,7 @@ enum class Basis {
   sine_points,   // DST-I: zero on points one step outside
   sine_cells,    // DST-II: odd about walls half a step outside
   cosine_cells,  // DCT-II: even about walls half a step outside
+  mixed_cells,   // DCT-IV: even about the lower end and odd about the upper, half a step outside
   fourier        // of period n, as real numbers
 };
 
@@ -30,6 +31,7 @@ struct Place {
 //                 backward            y_k = (-1)^k x_{n-1} + 2 sum_{j<n-1} x_j sin(pi (j+1) (k+1/2) / n)
 //   cosine_cells  forward             y_k = 2 sum_j x_j cos(pi (j+1/2) k / n)
 //                 backward            y_k = x_0 + 2 sum_{j>0} x_j cos(pi j (k+1/2) / n)
+//   mixed_cells   forward = backward  y_k = 2 sum_j x_j cos(pi (j+1/2) (k+1/2) / n)
 //   fourier         forward             y_k = sum_j x_j cos(2 pi j k / n) for k <= n/2,
 //                                       y_k = sum_j x_j sin(2 pi j k / n) above (half-complex order)
 //                   backward            y_k = sum_j (1 or 2) x_j (cos or sin)(2 pi j k / n), 1 for j = 0 and n/2
@@ -61,10 +63,13 @@ class LineTransform {
 
  private:
   void plan_cells();
+  void plan_mixed_cells();
   void plan_points();
   void transform_points(double* block, double* result) const;
   void prepare_cells(double* block) const;
   void finish_cells(double* block) const;
+  void prepare_mixed_cells(double* block) const;
+  void finish_mixed_cells(double* block) const;
   void prepare_waves(double* block) const;
   void finish_waves(double* block) const;
   void fold_points(double* block) const;
@@ -76,6 +81,7 @@ class LineTransform {
   Basis basis_;
   Direction direction_;
   std::vector<double> cosine_, sine_;
+  std::vector<double> wave_cosine_, wave_sine_;  // of pi j / n, for mixed_cells
   std::vector<Place> input_, output_;
   std::unique_ptr<BlockFft> fft_;                          // of cells, waves, or points extended to a period
   std::unique_ptr<LineTransform> odd_modes_, even_modes_;  // of points, if their number of intervals is even

@@ -17,6 +17,8 @@ fftw_r2r_kind kind(Basis basis, Direction direction) {
       return forward ? FFTW_RODFT10 : FFTW_RODFT01;
     case Basis::cosine_cells:
       return forward ? FFTW_REDFT10 : FFTW_REDFT01;
+    case Basis::mixed_cells:
+      return FFTW_REDFT11;
     default:
       return forward ? FFTW_R2HC : FFTW_HC2R;
   }

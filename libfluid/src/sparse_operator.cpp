@@ -59,7 +59,7 @@ class Assembly {
 
  private:
   // Differences along an axis between neighbouring points of a block: those with an end beyond a wall count half, as
-  // half of the difference lies outside.
+  // half of the difference lies outside. (Across a mirror they are zero, and so are shears on it.)
   template <class Visit>
   void differences(int block, int axis, double weight, Visit&& visit) const {
     const Centring centring = problem_.centring(block);
@@ -114,7 +114,7 @@ class Assembly {
     });
   }
 
-  // x at a point of a block, on and beyond walls too.
+  // x at a point of a block, on and beyond walls and mirrors too.
   Term value(int block, Index point) const {
     double factor = 1.0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -126,8 +126,9 @@ class Assembly {
         if (p <= 0 || p >= n) return {0, 0.0};
         --p;
       } else if (p < 0 || p >= n) {
-        p = p < 0 ? 0 : n - 1;
-        factor *= problem_.boundary == BoundaryCondition::dirichlet ? -1.0 : 1.0;
+        const int side = p < 0 ? 0 : 1;
+        p = side == 0 ? 0 : n - 1;
+        factor *= problem_.condition(block, axis, side) == BoundaryCondition::dirichlet ? -1.0 : 1.0;
       }
     }
     const Index& n = extent_[block];

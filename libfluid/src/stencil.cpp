@@ -39,6 +39,12 @@ struct MeanCoefficient {
   std::ptrdiff_t below_step;
 };
 
+// Of the blocks whose points are half a cell away from the end: all of them have the same condition there.
+double reflection(const EllipticProblem& problem, int axis, int side) {
+  const int block = is_face_normal(problem.centring(0), axis) ? problem.blocks() - 1 : 0;
+  return problem.condition(block, axis, side) == BoundaryCondition::dirichlet ? -1.0 : 1.0;
+}
+
 void constant_laplacian_row(const EllipticProblem& problem, int block, ConstView x, int j, int k, double* out) {
   const double* here = x.row(j, k);
   const double* south = here - x.row_stride;
@@ -64,9 +70,10 @@ void constant_laplacian_row(const EllipticProblem& problem, int block, ConstView
 }  // namespace
 
 GhostedBlocks::GhostedBlocks(const EllipticProblem& problem)
-    : count_(problem.blocks()),
-      periodic_(problem.grid.periodic),
-      reflection_(problem.boundary == BoundaryCondition::dirichlet ? -1.0 : 1.0) {
+    : count_(problem.blocks()), periodic_(problem.grid.periodic) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) reflection_[axis][side] = reflection(problem, axis, side);
+  }
   for (int block = 0; block < count_; ++block) {
     centring_[block] = problem.centring(block);
     const auto n = point_extent(problem.grid, centring_[block]);
@@ -118,8 +125,8 @@ void GhostedBlocks::set_ghosts() {
             line[-step] = -line[step];
             line[(last + 1) * step] = -line[(last - 1) * step];
           } else {
-            line[-step] = reflection_ * line[0];
-            line[(last + 1) * step] = reflection_ * line[last * step];
+            line[-step] = reflection_[axis][0] * line[0];
+            line[(last + 1) * step] = reflection_[axis][1] * line[last * step];
           }
         }
       }
@@ -270,7 +277,8 @@ void add_stress(const FaceVector& u, ConstView mu, double offset, FaceVector& f)
   });
 }
 
-// Beyond a wall half a cell away the ghost is minus the value here, so that the edge on the wall counts twice.
+// Beyond a wall half a cell away the ghost is minus the value here, so that the edge on the wall counts twice; beyond a
+// mirror it is the value here, and the edge does not count.
 void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, int k, double* out) {
   const Centring centring = face_centrings[component];
   const auto n = point_extent(grid, centring);
@@ -281,11 +289,12 @@ void stress_diagonal_row(const Grid& grid, ConstView mu, int component, int j, i
     const MeanCoefficient mean(mu, centring, axis, j, k);
     const double h = grid.spacing(axis);
     const double scale = (axis == component ? 2.0 : 1.0) / (h * h);
-    const bool has_walls = axis != component && !grid.periodic[axis];
+    const bool has_ends = axis != component && !grid.periodic[axis];
+    const double at_lower_end = grid.mirror[axis] ? 0.0 : 2.0;
     for (int i = begin; i < end; ++i) {
       const int index = axis == 0 ? i : axis == 1 ? j : k;
-      const double above = has_walls && index == n[axis] - 1 ? 2.0 : 1.0;
-      const double below = has_walls && index == 0 ? 2.0 : 1.0;
+      const double above = has_ends && index == n[axis] - 1 ? 2.0 : 1.0;
+      const double below = has_ends && index == 0 ? at_lower_end : 1.0;
       out[i] += scale * (above * mean.above(i) + below * mean.below(i));
     }
   }

@@ -22,7 +22,7 @@ class GhostedBlocks {
 
   // Copies the unknowns.
   void assign(ConstBlocks x);
-  // Sets points on walls to zero, and ghosts by the problem's homogeneous conditions or from the other end.
+  // Sets points on walls and mirrors to zero, and ghosts by the problem's conditions or from the other end.
   void set_ghosts();
 
  private:
@@ -31,7 +31,8 @@ class GhostedBlocks {
   int count_;
   std::array<bool, 3> periodic_;
   std::array<Centring, 3> centring_{};
-  double reflection_;  // ghost / value inside
+  std::array<std::array<double, 2>, 3>
+      reflection_{};  // by axis and side: ghost / value inside, half a cell from the end
   std::array<AlignedArray, 3> storage_;
   std::array<View, 3> points_, unknowns_;
 };

@@ -26,14 +26,15 @@ Rows interpolation_rows(const Grid& coarse, const Grid& fine, Centring centring,
   const bool normal = is_face_normal(centring, axis);
   const bool periodic = coarse.periodic[axis];
   const double ratio = static_cast<double>(cells) / fine.cells[axis];
-  // Adds a multiple of the value at a coarse point, which may be on a wall or a ghost.
+  // Adds a multiple of the value at a coarse point, which may be on a wall, on a mirror or a ghost.
   const auto add_point = [&](std::vector<LineMap::Entry>& row, int point, double weight) {
     if (periodic) {
       add_entry(row, (point + cells) % cells, weight);
     } else if (normal) {
       if (point > 0 && point < cells) add_entry(row, point - 1, weight);
     } else if (point < 0 || point == cells) {
-      add_entry(row, std::clamp(point, 0, cells - 1), -weight);
+      const bool even = point < 0 && coarse.mirror[axis];
+      add_entry(row, std::clamp(point, 0, cells - 1), even ? weight : -weight);
     } else {
       add_entry(row, point, weight);
     }

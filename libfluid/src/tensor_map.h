@@ -18,7 +18,8 @@ class LineMap {
     double weight;
   };
 
-  // From the unknowns of a coarse grid of the same box: linear interpolation, with zero velocity on walls.
+  // From the unknowns of a coarse grid of the same box: linear interpolation of a velocity, zero on walls
+  // and symmetric about mirrors.
   static LineMap interpolation(const Grid& coarse, const Grid& fine, Centring centring, int axis);
   // The transpose, scaled to keep the mean.
   static LineMap restriction(const Grid& fine, const Grid& coarse, Centring centring, int axis);

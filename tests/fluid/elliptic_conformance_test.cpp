@@ -59,13 +59,22 @@ const Backend backends[] = {
 #endif
 };
 
-// Power of two, odd, prime, flat, with unequal mesh widths; and one grid for all masks of periodic axes.
-const std::pair<Grid, std::vector<int>> grids[] = {
-    {Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), {0, 7}},
-    {Grid({-1, 0, 0}, {1, 3, 1}, {9, 5, 7}), {0, 1}},
-    {Grid({0, 0, 0}, {1, 2, 3}, {7, 11, 5}), {0, 6}},
-    {Grid({0, 0, -1}, {4, 1, 1}, {16, 5, 4}), {0, 3}},
-    {Grid({0, 0, 0}, {1, 0.8, 1.3}, {6, 5, 7}), {0, 1, 2, 3, 4, 5, 6, 7}}};
+// Walls and periodic axes in all mixes, mirrors in most.
+std::vector<test::Topology> many_topologies() {
+  std::vector<test::Topology> topologies;
+  for (int periodic = 0; periodic < 8; ++periodic) topologies.push_back({.periodic = periodic});
+  for (const int mirror : {1, 2, 4, 3, 6, 7}) topologies.push_back({.mirror = mirror});
+  for (const auto& [periodic, mirror] : {std::pair(1, 2), {2, 5}, {4, 3}}) topologies.push_back({periodic, mirror});
+  return topologies;
+}
+
+// Power of two, odd, prime, flat, with unequal mesh widths.
+const std::pair<Grid, std::vector<test::Topology>> grids[] = {
+    {Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), {{}, {.periodic = 7}, {.mirror = 6}}},
+    {Grid({-1, 0, 0}, {1, 3, 1}, {9, 5, 7}), {{}, {.periodic = 1}, {.mirror = 1}}},
+    {Grid({0, 0, 0}, {1, 2, 3}, {7, 11, 5}), {{}, {.periodic = 6}, {.mirror = 2}, {.mirror = 6}}},
+    {Grid({0, 0, -1}, {4, 1, 1}, {16, 5, 4}), {{}, {.periodic = 3}, {.mirror = 3}, {.periodic = 3, .mirror = 4}}},
+    {Grid({0, 0, 0}, {1, 0.8, 1.3}, {6, 5, 7}), many_topologies()}};
 
 const Grid one_grid({0, 0, 0}, {1, 2, 3}, {9, 6, 8});
 
@@ -84,7 +93,8 @@ bool is_refused(const Backend& backend, const EllipticProblem& problem) {
 }
 
 // A lower bound of the smallest eigenvalue but the nullspace's. Of -Lap along one axis it is (2/h sin(pi h / 2L))^2, at
-// least 0.94 (pi / L)^2 for 4 cells, where walls hold the solution; elsewhere constants are free along the axis. The
+// least 0.94 (pi / L)^2 for 4 cells, where walls hold the solution, and that of twice the length if one of the ends is a
+// mirror; elsewhere constants are free along the axis. The
 // stress form has more energy than the laplacian for every x (discrete Korn inequality: the double of grad u's symmetric
 // part is |grad u|^2 + (div u)^2), if mu is a number, and then mu >= mu_min.
 double smallest_eigenvalue(const EllipticProblem& problem) {
@@ -93,7 +103,9 @@ double smallest_eigenvalue(const EllipticProblem& problem) {
   for (int axis = 0; axis < 3; ++axis) {
     const double first = 0.94 * std::pow(std::numbers::pi / problem.grid.length(axis), 2);
     smallest = std::min(smallest, first);
-    if (problem.boundary == BoundaryCondition::dirichlet && !problem.grid.periodic[axis]) held += first;
+    if (problem.boundary == BoundaryCondition::dirichlet && !problem.grid.periodic[axis]) {
+      held += problem.grid.mirror[axis] ? first / 4 : first;
+    }
   }
   const double mu = problem.mu.checked_range().min;
   return problem.alpha + mu * (problem.has_nullspace() ? smallest : held);
@@ -131,13 +143,13 @@ class ForEachKind : public testing::TestWithParam<std::tuple<Backend, Kind, Coef
 
 TEST_P(ForEachKind, SolvesTheDiscreteEquationsOrRefusesThem) {
   const auto& [backend, kind, coefficient] = GetParam();
-  for (const auto& [shape, masks] : grids) {
-    for (const int mask : masks) {
+  for (const auto& [shape, topologies] : grids) {
+    for (const test::Topology& topology : topologies) {
       for (const double alpha : {0.0, 7.0}) {
-        const Grid grid = test::with_periodic_axes(shape, mask);
+        const Grid grid = test::with_topology(shape, topology);
         const EllipticProblem p = kind.problem(grid, alpha, viscosity(grid, coefficient));
-        SCOPED_TRACE(testing::Message() << grid.cells[0] << 'x' << grid.cells[1] << 'x' << grid.cells[2]
-                                        << ", periodic axes " << mask << ", alpha " << alpha);
+        SCOPED_TRACE(testing::Message() << grid.cells[0] << 'x' << grid.cells[1] << 'x' << grid.cells[2] << ", "
+                                        << topology << ", alpha " << alpha);
         if (is_refused(backend, p)) {
           const char* what = p.form == EllipticForm::stress ? "stress" : "variable";
           EXPECT_THAT([&] { make_elliptic_solver(p, backend.options); },
@@ -214,8 +226,10 @@ TEST_P(EllipticConformance, UpdatedSolverSolvesTheNewProblem) {
       EXPECT_TRUE(solver->solve(rhs, x).converged);
       EXPECT_LT(relative_residual(solver->problem(), rhs, x), allowed_residual(backend(), solver->problem()));
     }
-    solver->update(problem(one_grid, 1.0));
-    check_solution(backend(), *solver, 17);
+    for (const Grid& other : {one_grid, test::with_topology(one_grid, {.mirror = 6})}) {
+      solver->update(problem(other, 1.0));
+      check_solution(backend(), *solver, 17);
+    }
   });
 }
 
@@ -280,7 +294,8 @@ TEST_P(EllipticConformance, RefusesWrongShapesAndNonFiniteData) {
 TEST_P(EllipticConformance, GivesTheSameBitsForEveryNumberOfThreads) {
   // Large enough for threads (libfluid/src/planes.h), but for factorisations, whose time would be seconds.
   const bool factors = std::string(backend().name).find("cholmod") != std::string::npos;
-  const Grid grid = factors ? one_grid : Grid({0, 0, 0}, {1, 2, 3}, {31, 27, 23});
+  const Grid shape = factors ? one_grid : Grid({0, 0, 0}, {1, 2, 3}, {31, 27, 23});
+  const Grid grid = test::with_topology(shape, {.mirror = 2});
   for_each_kind([&](const auto& problem) {
     const EllipticProblem p = problem(grid, 0.0);
     const Numbers rhs(p, 21);

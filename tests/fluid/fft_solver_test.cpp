@@ -1,4 +1,4 @@
-// The "fft" backend: every combination of walls and periodic axes, both kinds of transforms.
+// The "fft" backend: every combination of walls, periodic axes and mirrors, both kinds of transforms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "fluid/elliptic_solver.h"
 #include "support/allocation_counter.h"
-#include "test_fields.h"
+#include "test_problems.h"
 #include "thread_count.h"
 
 namespace vesiflow::fluid {
@@ -35,10 +35,6 @@ const Grid shapes[] = {Grid({0, 0, 0}, {1, 1, 1}, {4, 4, 4}),     Grid({0, 0, 0}
                        Grid({0, 0, -1}, {4, 1, 1}, {24, 5, 4}),   Grid({0, 0, 0}, {1, 1, 2}, {9, 15, 23}),
                        Grid({0, 0, 0}, {50, 40, 0.5}, {8, 6, 10})};
 
-std::array<bool, 3> periodic_axes(int mask) {
-  return {(mask & 1) != 0, (mask & 2) != 0, (mask & 4) != 0};
-}
-
 // Numbers of one block, without padding.
 struct Numbers {
   explicit Numbers(const EllipticProblem& problem, unsigned seed = 0) : values(problem.unknowns()) {
@@ -55,14 +51,14 @@ struct Numbers {
   View view;
 };
 
-using Case = std::tuple<int, Unknowns, double>;  // mask of periodic axes, unknowns, alpha
+using Case = std::tuple<test::Topology, Unknowns, double>;  // unknowns, alpha
 
 class FftSolverOf : public testing::TestWithParam<Case> {
  protected:
   static constexpr double mu = 0.75;
   EllipticProblem problem(const Grid& shape) const {
-    const auto& [mask, unknowns, alpha] = GetParam();
-    const Grid grid(shape.lower, shape.upper, shape.cells, periodic_axes(mask));
+    const auto& [topology, unknowns, alpha] = GetParam();
+    const Grid grid = test::with_topology(shape, topology);
     return {grid, unknowns.centring, unknowns.boundary, alpha, mu};
   }
   // Bound of the largest eigenvalue: that times the rounding of x is what a residual must be allowed.
@@ -104,16 +100,24 @@ TEST_P(FftSolverOf, AgreesWithFftwsTransforms) {
   }
 }
 
-// Of wave number m along the axis. Between walls sines and cosines of half waves, on periodic axes of whole ones.
+// Whether x is even at the lower and odd at the upper end.
+bool has_mixed_ends(const EllipticProblem& p, int axis) {
+  return p.grid.mirror[axis] && p.boundary == BoundaryCondition::dirichlet && !is_face_normal(p.centring(), axis);
+}
+
+// Of wave number m along the axis. Between walls sines and cosines of half waves, on periodic axes of whole ones; between
+// a mirror and a wall an odd number of quarters.
 double eigenvector(const EllipticProblem& p, int axis, int index, int m) {
   const double position = (is_face_normal(p.centring(), axis) ? index + 1.0 : index + 0.5) / p.grid.cells[axis];
   if (p.grid.periodic[axis]) return std::cos(2 * std::numbers::pi * m * position + 0.3);
+  if (has_mixed_ends(p, axis)) return std::cos(std::numbers::pi * (m - 0.5) * position);
   return p.boundary == BoundaryCondition::neumann ? std::cos(std::numbers::pi * m * position)
                                                   : std::sin(std::numbers::pi * m * position);
 }
 
 double eigenvalue(const EllipticProblem& p, int axis, int m) {
-  const double half = std::numbers::pi * m / (p.grid.periodic[axis] ? 1 : 2) / p.grid.cells[axis];
+  const double waves = p.grid.periodic[axis] ? m : has_mixed_ends(p, axis) ? 0.5 * (m - 0.5) : 0.5 * m;
+  const double half = std::numbers::pi * waves / p.grid.cells[axis];
   return std::pow(2 * std::sin(half) / p.grid.spacing(axis), 2);
 }
 
@@ -171,15 +175,17 @@ TEST_P(FftSolverOf, NullspaceIsOfConstantsAlone) {
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-  const auto& [mask, unknowns, alpha] = info.param;
+  const auto& [topology, unknowns, alpha] = info.param;
   std::ostringstream out;
-  for (const bool periodic : periodic_axes(mask)) out << (periodic ? 'P' : 'W');
+  for (int axis = 0; axis < 3; ++axis) {
+    out << (test::axes_of(topology.periodic)[axis] ? 'P' : test::axes_of(topology.mirror)[axis] ? 'M' : 'W');
+  }
   out << '_' << name(unknowns.centring) << '_' << name(unknowns.boundary) << (alpha > 0 ? "_helmholtz" : "_poisson");
   return out.str();
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FftSolverOf,
-                         testing::Combine(testing::Range(0, 8), testing::ValuesIn(all_unknowns),
+                         testing::Combine(testing::ValuesIn(test::all_topologies()), testing::ValuesIn(all_unknowns),
                                           testing::Values(0.0, 2.5)),
                          case_name);
 
@@ -204,9 +210,10 @@ TEST(FftSolver, RemovesTheMeanOfEachComponentIfAllAxesArePeriodic) {
 }
 
 TEST(FftSolver, HasTheSameBitsForAnyNumberOfThreads) {
-  for (int mask = 0; mask < 8; ++mask) {
-    const Grid grid({0, 0, 0}, {1, 2, 1}, {40, 23, 27}, periodic_axes(mask));
-    const EllipticProblem p(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
+  for (const test::Topology& topology : test::all_topologies()) {
+    const Grid grid = test::with_topology(Grid({0, 0, 0}, {1, 2, 1}, {40, 23, 27}), topology);
+    const auto boundary = topology.mirror == 0 ? BoundaryCondition::neumann : BoundaryCondition::dirichlet;
+    const EllipticProblem p(grid, Centring::cell, boundary, 0.0, 1.0);
     const Numbers rhs(p, 24);
     const Numbers reference(p);
     {
@@ -217,7 +224,7 @@ TEST(FftSolver, HasTheSameBitsForAnyNumberOfThreads) {
       const test::ThreadCount several(threads);
       const Numbers x(p);
       make_elliptic_solver(p, FftOptions{})->solve(rhs.view, x.view);
-      EXPECT_EQ(x.values, reference.values) << threads << " threads, mask " << mask;
+      EXPECT_EQ(x.values, reference.values) << threads << " threads, " << topology;
     }
   }
 }
@@ -225,8 +232,8 @@ TEST(FftSolver, HasTheSameBitsForAnyNumberOfThreads) {
 TEST(FftSolver, DoesNotAllocateInASolve) {
   if (!vesiflow::test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
   const test::ThreadCount two(2);  // with one the OpenMP library itself allocates a team for every loop
-  for (int mask = 0; mask < 8; ++mask) {
-    const Grid grid({0, 0, 0}, {1, 2, 1}, {150, 22, 15}, periodic_axes(mask));
+  for (const test::Topology& topology : test::all_topologies()) {
+    const Grid grid = test::with_topology(Grid({0, 0, 0}, {1, 2, 1}, {150, 22, 15}), topology);
     for (const Unknowns& unknowns : all_unknowns) {
       const EllipticProblem p(grid, unknowns.centring, unknowns.boundary, 0.0, 1.0);
       const auto solver = make_elliptic_solver(p, FftOptions{});
@@ -234,7 +241,7 @@ TEST(FftSolver, DoesNotAllocateInASolve) {
       solver->solve(x.view, x.view);
       const long before = vesiflow::test::allocation_count();
       solver->solve(x.view, x.view);
-      EXPECT_EQ(vesiflow::test::allocation_count() - before, 0) << "mask " << mask;
+      EXPECT_EQ(vesiflow::test::allocation_count() - before, 0) << topology;
     }
   }
 }

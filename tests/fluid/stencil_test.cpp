@@ -19,11 +19,10 @@ const Grid small_grid({0, 0, 0}, {1, 1.4, 0.9}, {5, 6, 4});
 
 TEST(EllipticOperator, IsSymmetricAndPositiveForEveryKindAndTopology) {
   for (const test::Kind& kind : test::all_kinds) {
-    for (int mask = 0; mask < 8; ++mask) {
-      const Grid grid = test::with_periodic_axes(small_grid, mask);
+    for (const test::Topology& topology : test::all_topologies()) {
+      const Grid grid = test::with_topology(small_grid, topology);
       for (const Viscosity& mu : {Viscosity(0.7), Viscosity(test::wavy_viscosity(grid, 20.0))}) {
-        SCOPED_TRACE(testing::Message() << kind.name << ", periodic axes " << mask << ", constant "
-                                        << mu.is_constant());
+        SCOPED_TRACE(testing::Message() << kind.name << ", " << topology << ", constant " << mu.is_constant());
         const EllipticProblem problem = kind.problem(grid, 0.0, mu);
         const Numbers x(problem, 51);
         const Numbers y(problem, 52);

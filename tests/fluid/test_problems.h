@@ -16,8 +16,37 @@
 
 namespace vesiflow::fluid::test {
 
+inline std::array<bool, 3> axes_of(int mask) {
+  return {(mask & 1) != 0, (mask & 2) != 0, (mask & 4) != 0};
+}
+
+// Masks of the axes that are periodic and that have a mirror.
+struct Topology {
+  int periodic = 0;
+  int mirror = 0;
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Topology& topology) {
+  return out << "periodic axes " << topology.periodic << ", mirrors " << topology.mirror;
+}
+
+inline Grid with_topology(const Grid& grid, const Topology& topology) {
+  return {grid.lower, grid.upper, grid.cells, axes_of(topology.periodic), axes_of(topology.mirror)};
+}
+
 inline Grid with_periodic_axes(const Grid& grid, int mask) {
-  return {grid.lower, grid.upper, grid.cells, {(mask & 1) != 0, (mask & 2) != 0, (mask & 4) != 0}};
+  return with_topology(grid, {.periodic = mask});
+}
+
+// Every axis between walls, periodic, or with a mirror.
+inline std::vector<Topology> all_topologies() {
+  std::vector<Topology> topologies;
+  for (int periodic = 0; periodic < 8; ++periodic) {
+    for (int mirror = 0; mirror < 8; ++mirror) {
+      if ((periodic & mirror) == 0) topologies.push_back({periodic, mirror});
+    }
+  }
+  return topologies;
 }
 
 // What the unknowns are and what is applied to them.

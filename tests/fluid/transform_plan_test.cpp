@@ -20,12 +20,14 @@ namespace {
 using Real = long double;
 using Case = std::tuple<Basis, Direction>;
 
-constexpr Basis bases[] = {Basis::sine_points, Basis::sine_cells, Basis::cosine_cells, Basis::fourier};
+constexpr Basis bases[] = {Basis::sine_points, Basis::sine_cells, Basis::cosine_cells, Basis::mixed_cells,
+                           Basis::fourier};
 
 // Row k, column j of the transform's matrix (line_transform.h).
 Real matrix(Basis basis, Direction direction, int n, int k, int j) {
   const Real pi = std::numbers::pi_v<Real>;
   if (basis == Basis::sine_points) return 2 * std::sin(pi * ((j + 1) * (k + 1) % (2 * (n + 1))) / (n + 1));
+  if (basis == Basis::mixed_cells) return 2 * std::cos(pi * ((2 * j + 1) * (2 * k + 1) % (8 * n)) / (4 * n));
   if (basis == Basis::fourier) {
     const int wave = direction == Direction::forward ? k : j;
     const Real angle = 2 * pi * (static_cast<long>(j) * k % n) / n;
@@ -138,7 +140,7 @@ TEST(TransformPlan, ForwardThenBackwardMultipliesByThePairFactor) {
 }
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-  const char* names[] = {"sine_points", "sine_cells", "cosine_cells", "fourier"};
+  const char* names[] = {"sine_points", "sine_cells", "cosine_cells", "mixed_cells", "fourier"};
   return std::string(names[static_cast<int>(std::get<0>(info.param))]) +
          (std::get<1>(info.param) == Direction::forward ? "_forward" : "_backward");
 }

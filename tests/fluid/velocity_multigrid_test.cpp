@@ -5,20 +5,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "block_algebra.h"
 #include "saddle_vector.h"
 #include "tensor_map.h"
-#include "test_fields.h"
+#include "test_problems.h"
 
 namespace vesiflow::fluid {
 namespace {
 
-const std::array<bool, 3> topologies[] = {{false, false, false}, {true, false, true}, {true, true, true}};
+const test::Topology topologies[] = {{}, {.periodic = 5}, {.periodic = 7}, {.mirror = 6}, {.periodic = 4, .mirror = 1}};
 
 // Odd and unequal numbers of cells.
-Grid fine_grid(const std::array<bool, 3>& periodic) {
-  return {{-1, 0, 0}, {1, 3, 1}, {15, 22, 9}, periodic};
+Grid fine_grid(const test::Topology& topology) {
+  return test::with_topology(Grid({-1, 0, 0}, {1, 3, 1}, {15, 22, 9}), topology);
 }
 
 Viscosity drop(const Grid& grid, double ratio) {
@@ -33,10 +34,12 @@ void fill_random(Blocks x, unsigned seed) {
   for (const View& block : x) test::fill_random(block, seed++);
 }
 
+// Even components are constant near a mirror.
 TEST(TensorMap, InterpolatesLinearFunctionsThatVanishOnWalls) {
-  for (const auto& [fine_cells, coarse_cells] : {std::pair{15, 8}, std::pair{12, 6}, std::pair{9, 9}}) {
-    const Grid fine({0, 0, 0}, {1, 1, 1}, {fine_cells, 4, 4});
-    const Grid coarse({0, 0, 0}, {1, 1, 1}, {coarse_cells, 4, 4});
+  for (const auto& [fine_cells, coarse_cells, mirror] :
+       {std::tuple{15, 8, 0}, {12, 6, 0}, {9, 9, 0}, {15, 8, 1}, {12, 6, 1}}) {
+    const Grid fine = test::with_topology(Grid({0, 0, 0}, {1, 1, 1}, {fine_cells, 4, 4}), {.mirror = mirror});
+    const Grid coarse = test::with_topology(Grid({0, 0, 0}, {1, 1, 1}, {coarse_cells, 4, 4}), {.mirror = mirror});
     for (const Centring centring : {Centring::face_x, Centring::face_y}) {
       const LineMap map = LineMap::interpolation(coarse, fine, centring, 0);
       const int coarse_first = first_unknown(coarse, centring, 0);
@@ -45,6 +48,7 @@ TEST(TensorMap, InterpolatesLinearFunctionsThatVanishOnWalls) {
       for (const bool lower : {true, false}) {
         const auto f = [&](const Grid& grid, int i) {
           const double x = point_position(grid, centring, i, 0, 0)[0];
+          if (lower && grid.mirror[0] && !is_face_normal(centring, 0)) return 1.0;
           return lower ? x : 1.0 - x;
         };
         for (int i = 0; i < map.rows(); ++i) {
@@ -61,9 +65,9 @@ TEST(TensorMap, InterpolatesLinearFunctionsThatVanishOnWalls) {
 }
 
 TEST(TensorMap, RestrictionIsTheScaledTranspose) {
-  for (const auto& periodic : topologies) {
-    const Grid fine = fine_grid(periodic);
-    const Grid coarse(fine.lower, fine.upper, {8, 11, 9}, periodic);
+  for (const test::Topology& topology : topologies) {
+    const Grid fine = fine_grid(topology);
+    const Grid coarse(fine.lower, fine.upper, {8, 11, 9}, fine.periodic, fine.mirror);
     SaddleVector a(fine), pb(fine);
     SaddleVector b(coarse), ra(coarse);
     fill_random(a.u(), 1);
@@ -99,8 +103,8 @@ TEST(TensorMap, CellAveragesKeepTheIntegral) {
 
 // Applied to one unit vector after the other.
 TEST(Stencil, DiagonalOfTheStress) {
-  for (const auto& periodic : topologies) {
-    const Grid grid({-1, 0, 0}, {1, 3, 1}, {5, 4, 6}, periodic);
+  for (const test::Topology& topology : topologies) {
+    const Grid grid = test::with_topology(Grid({-1, 0, 0}, {1, 3, 1}, {5, 4, 6}), topology);
     const Viscosity mu = drop(grid, 7.0);
     const EllipticProblem problem = EllipticProblem::velocity(grid, EllipticForm::stress, 0.0, mu);
     const Stencil stencil(problem);
@@ -123,8 +127,8 @@ TEST(Stencil, DiagonalOfTheStress) {
 }
 
 TEST(VelocityMultigrid, IsSymmetricAndPositive) {
-  for (const auto& periodic : topologies) {
-    const Grid grid = fine_grid(periodic);
+  for (const test::Topology& topology : topologies) {
+    const Grid grid = fine_grid(topology);
     VelocityMultigrid multigrid(grid);
     multigrid.update(drop(grid, 30.0));
     PlaneSums sums(30);
@@ -149,9 +153,9 @@ TEST(VelocityMultigrid, IsSymmetricAndPositive) {
 // The error of b = A x after a number of cycles, in the energy norm that A makes, shrinks by about 0.7 in each whatever the
 // grid and the viscosities.
 TEST(VelocityMultigrid, CyclesConverge) {
-  for (const auto& periodic : topologies) {
+  for (const test::Topology& topology : topologies) {
     for (const int cells : {12, 24}) {
-      const Grid grid({-1, 0.5, -0.5}, {1, 2.5, 1.5}, {cells, cells + 1, cells}, periodic);
+      const Grid grid = test::with_topology(Grid({-1, 0.5, -0.5}, {1, 2.5, 1.5}, {cells, cells + 1, cells}), topology);
       for (const double ratio : {0.05, 1.0, 100.0}) {
         const Viscosity mu = drop(grid, ratio);
         VelocityMultigrid multigrid(grid);
@@ -171,7 +175,8 @@ TEST(VelocityMultigrid, CyclesConverge) {
           multigrid.apply(residual.u(), correction.u());
           add(-1.0, correction.u(), error.u());
         }
-        EXPECT_LT(std::pow(energy() / first, 1.0 / cycles), 0.7) << cells << " cells, ratio " << ratio;
+        EXPECT_LT(std::pow(energy() / first, 1.0 / cycles), 0.7)
+            << cells << " cells, ratio " << ratio << ", " << topology;
       }
     }
   }

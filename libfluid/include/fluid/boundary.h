@@ -1,5 +1,5 @@
 // Velocity on the walls of the box: sampled from a function, checked, and imposed on staggered fields, together with
-// the repetition across periodic axes.
+// the repetition across periodic axes and the reflection at mirrors.
 #pragma once
 
 #include <array>
@@ -14,12 +14,14 @@ namespace vesiflow::fluid {
 // Velocity of the walls (dimensionless) at a position on a wall and a time.
 using BoundaryVelocity = std::function<Vector3(const Vector3& position, double time)>;
 
-// The Dirichlet data of the fluid velocity u on the walls: two for every axis that is not periodic.
+// The Dirichlet data of the fluid velocity u on the walls: two for every axis that is not periodic, or one if it has a
+// mirror.
 //
 // A component normal to a wall has faces on it and takes the wall's value there. A tangential component has
 // points half a cell away on either side: its ghost is 2 * wall - interior. Ghosts beyond normal faces follow
 // the same line, 2 * wall face - inner face, and so do edges and corners, so that a linear flow is continued
-// exactly. Across a periodic axis ghosts are the points of the other end.
+// exactly. Across a periodic axis ghosts are the points of the other end. The component normal to a mirror is zero on
+// the faces there and minus the inner face in the ghost; tangential components have the point inside as their ghost.
 //
 // Steady data is sampled once; other data at each call of evaluate() with a new time.
 class WallVelocity {
@@ -31,8 +33,10 @@ class WallVelocity {
   // Samples the function at the given time, unless it is steady. An incompressible fluid needs zero net flux
   // through the walls. Data that has it is sampled at face centres with an error O(h^2); such a remainder is
   // spread evenly over all the walls' normal velocity. Throws std::invalid_argument with the flux if it is
-  // more than max_relative_flux of the flux of |u.n|, if a value is not finite, or if the function differs at the two
-  // ends of a periodic axis; the data is then what it was before.
+  // more than max_relative_flux of the flux of |u.n|, if a value is not finite, if the function differs at the two
+  // ends of a periodic axis, or if its component normal to a mirror is not zero there; the data is then what it was
+  // before. With mirrors the function is called in the computed part of the box only: that the rest is its reflection is
+  // taken on trust.
   void evaluate(double time);
   static constexpr double max_relative_flux = 0.01;
 
@@ -41,9 +45,10 @@ class WallVelocity {
   // Net outward flux of the sampled data, before the remainder was taken out.
   double net_flux() const { return net_flux_; }
 
-  // Sets the faces on walls, and on periodic axes the last face, which is the first.
+  // Sets the faces on walls and mirrors, and on periodic axes the last face, which is the first.
   void set_normal_faces(FaceVector& u) const;
-  // Sets all ghosts from the walls and the points inside; the faces of set_normal_faces() must have been set.
+  // Sets all ghosts from the walls, the mirrors and the points inside; the faces of set_normal_faces() must have been
+  // set.
   void fill_ghosts(FaceVector& u) const;
   // Adds mu times the part of the 7-point Laplacian of each component that comes from the walls to the
   // unknowns of rhs: what the homogeneous operator of EllipticProblem leaves out.
@@ -51,7 +56,7 @@ class WallVelocity {
 
  private:
   // Values of one velocity component on one wall, at the positions of that component's points projected on
-  // the wall, one ghost position on every side included (continued linearly).
+  // the wall, one ghost position on every side included (continued linearly, repeated or reflected).
   struct Plane {
     int component, axis, side;
     std::array<int, 2> extent;  // points along the two other axes, in increasing order
@@ -63,6 +68,7 @@ class WallVelocity {
   void sample_all();
   void sample(Plane& plane) const;
   double sampled_at(const Vector3& position, int component) const;
+  void check_symmetry(double value, const Vector3& position, int component) const;
   void check_periodicity(const Plane& plane) const;
   void balance_flux();
   void fill_wall_ghosts(const Plane& wall, const View& field) const;
@@ -73,7 +79,7 @@ class WallVelocity {
   double time_ = 0.0;
   double net_flux_ = 0.0;
   std::vector<Plane> spare_planes_;  // of the time before, if they change
-  std::vector<Plane> planes_;        // those on walls are sampled
+  std::vector<Plane> planes_;        // those on walls are sampled, the others empty
 };
 
 }  // namespace vesiflow::fluid

@@ -29,8 +29,8 @@ inline constexpr std::array<Centring, 3> face_centrings{Centring::face_x, Centri
 // "cell", "face_x", ... for messages.
 const char* name(Centring centring);
 
-// Whether points of this centring lie on the walls normal to the axis (true for face_x and axis 0, and so
-// on).
+// Whether points of this centring lie on the walls (or the mirror) normal to the axis (true for face_x and axis 0, and
+// so on).
 constexpr bool is_face_normal(Centring centring, int axis) {
   return static_cast<int>(centring) == axis + 1;
 }
@@ -39,10 +39,10 @@ constexpr bool is_face_normal(Centring centring, int axis) {
 // of these is the first again).
 std::array<int, 3> point_extent(const Grid& grid, Centring centring);
 
-// Number of unknowns along each axis: the points that do not lie on a wall, each counted once.
+// Number of unknowns along each axis: the points that do not lie on a wall or a mirror, each counted once.
 std::array<int, 3> unknown_extent(const Grid& grid, Centring centring);
 
-// The index of the first unknown along an axis: 1 along the normal of a face between walls, else 0.
+// The index of the first unknown along an axis: 1 along the normal of a face unless it is periodic, else 0.
 constexpr int first_unknown(const Grid& grid, Centring centring, int axis) {
   return is_face_normal(centring, axis) && !grid.periodic[axis] ? 1 : 0;
 }

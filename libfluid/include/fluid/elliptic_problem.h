@@ -11,7 +11,7 @@
 
 namespace vesiflow::fluid {
 
-// The condition on all walls. Periodic axes have none.
+// The condition on all walls. Periodic axes have none, mirrors their own (EllipticProblem::condition).
 enum class BoundaryCondition { dirichlet, neumann };
 
 // What is applied to x beside alpha: -div(mu grad x), each component by itself, or the coupled viscous operator
@@ -23,13 +23,16 @@ const char* name(BoundaryCondition boundary);
 const char* name(EllipticForm form);
 
 // alpha x - div(mu grad x) = b for a scalar x on a centring or for a vector x on the faces, or
-// alpha x - div(mu (grad x + grad x^T)) = b for a vector on the faces; on the unknowns (the points not on walls), with
-// second-order differences between neighbours (7 points if mu is a number, and then for the laplacian form
+// alpha x - div(mu (grad x + grad x^T)) = b for a vector on the faces; on the unknowns (the points not on walls or
+// mirrors), with second-order differences between neighbours (7 points if mu is a number, and then for the laplacian form
 // -mu Lap x), and homogeneous conditions on all walls (inhomogeneous data belongs to b; see WallVelocity).
 //
 // Dirichlet: x = 0 on the walls. Along the normal axis of a face centring these are points of the grid; along
 // the others the wall is half a cell away and the ghost is -x. Neumann: the ghost is x; for cell centring
 // only.
+//
+// Across a mirror of the grid x is even, which is a Neumann condition there, but along the normal axis of a face
+// centring odd, which is a Dirichlet condition.
 //
 // With alpha = 0, and Neumann conditions or no walls at all, the constants are the nullspace, of each component by
 // itself. b is then made compatible by subtracting its mean, and the mean of the solution is zero: any solver does
@@ -40,7 +43,7 @@ struct EllipticProblem {
   // A scalar. Throws std::invalid_argument, naming the value, unless alpha >= 0 and a constant mu > 0 are finite, a
   // field mu is on the same grid, and the condition suits the centring. The values of a field are checked by the solver.
   EllipticProblem(const Grid& grid, Centring centring, BoundaryCondition boundary, double alpha, Viscosity mu);
-  // A vector at the faces, zero on walls. Throws likewise.
+  // A velocity-like vector at the faces, zero on walls. Throws likewise.
   static EllipticProblem velocity(const Grid& grid, EllipticForm form, double alpha, Viscosity mu);
 
   Grid grid;
@@ -55,6 +58,8 @@ struct EllipticProblem {
   std::array<int, 3> extent(int block = 0) const { return unknown_extent(grid, centring(block)); }
   std::size_t unknowns() const;  // of all blocks
   std::size_t unknowns(int block) const;
+  // Of a block at an end of an axis that is not periodic: at a wall `boundary`, at a mirror (side 0) what is said above.
+  BoundaryCondition condition(int block, int axis, int side) const;
   bool has_nullspace() const { return alpha == 0.0 && (boundary == BoundaryCondition::neumann || !grid.has_walls()); }
   // Same unknowns and operator; alpha and mu may differ, and mu be a number in one and a field in the other.
   bool same_structure(const EllipticProblem& other) const;

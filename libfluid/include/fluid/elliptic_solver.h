@@ -70,8 +70,8 @@ class EllipticSolver {
 };
 
 // Fast sine, cosine and Fourier transforms in x and y with the eigenvalues of the discrete operator, and the difference
-// equations in z by two sweeps. O(n log n), exact to round-off, for any mix of walls and periodic axes. For constant mu
-// and the laplacian form. The same bits for any number of threads.
+// equations in z by two sweeps. O(n log n), exact to round-off, for any mix of walls, periodic axes and mirrors. For
+// constant mu and the laplacian form. The same bits for any number of threads.
 struct FftOptions {
   enum class Transforms {
     pairs_of_lines,  // complex FFTs of pairs of real lines, plane by plane in cache

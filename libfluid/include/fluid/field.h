@@ -18,8 +18,8 @@ namespace vesiflow::fluid {
 // One number at every point of a centring, and one layer of ghosts on every side (edges and corners
 // included).
 //
-//   points  i = 0 .. extent(0) - 1, and so on; for FaceX extent(0) = cells[0] + 1: i = 0 and i = cells[0] are on walls,
-//           or on a periodic axis the same face
+//   points  i = 0 .. extent(0) - 1, and so on; for FaceX extent(0) = cells[0] + 1: i = 0 and i = cells[0] are on walls
+//           (i = 0 on the mirror, if there is one), or on a periodic axis the same face
 //   ghosts  i = -1 and i = extent(0), and so on
 //
 // x is fastest: (i, j, k) is at row(j, k)[i]. The storage is zero at first and aligned to 64 bytes. Fields
@@ -71,8 +71,8 @@ class Field {
   View points() { return {row(0, 0), extent_, row_stride_, plane_stride_}; }
   ConstView points() const { return {row(0, 0), extent_, row_stride_, plane_stride_}; }
 
-  // The points that are not on walls, each once: all of a cell field; the inner faces of a face field, or on a
-  // periodic axis all but the last.
+  // The points that are not on walls or mirrors, each once: all of a cell field; the inner faces of a face field, or on
+  // a periodic axis all but the last.
   View unknowns() { return {at_first_unknown(row(0, 0)), unknown_extent(grid_, centring), row_stride_, plane_stride_}; }
   ConstView unknowns() const {
     return {at_first_unknown(row(0, 0)), unknown_extent(grid_, centring), row_stride_, plane_stride_};

@@ -1,4 +1,5 @@
-// The uniform staggered (MAC) grid of a box, each axis of which ends at two walls or is periodic.
+// The uniform staggered (MAC) grid of a box, each axis of which ends at two walls, begins at a plane of symmetry or is
+// periodic.
 #pragma once
 
 #include <array>
@@ -14,25 +15,35 @@ using Vector3 = std::array<double, 3>;
 //
 // Where things live: pressure at cell centres; the velocity component along an axis at the centres of the
 // faces normal to it, the faces on the two walls included (see field.h).
+//
+// An axis with a mirror holds the upper half of a box, twice as long and with twice the cells, in which everything is
+// symmetric about the plane of the lower end. There is no wall there: across it the velocity component along the axis
+// is odd (and so zero on it), the other components, the pressure and the viscosity are even. The upper end is a wall.
+// What is computed on the half is, to round-off, what would be on the whole. Up to three axes may have a mirror: two
+// leave a quarter of the box to compute.
 struct Grid {
   static constexpr int min_cells = 4;
   static constexpr int max_cells = 65536;  // per axis: indices of the whole array then fit 64 bits
 
   // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and
-  // min_cells <= cells <= max_cells.
+  // min_cells <= cells <= max_cells, and if an axis is both periodic and has a mirror.
   Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells,
-       const std::array<bool, 3>& periodic = {false, false, false});
+       const std::array<bool, 3>& periodic = {false, false, false},
+       const std::array<bool, 3>& mirror = {false, false, false});
 
   Vector3 lower;
   Vector3 upper;
   std::array<int, 3> cells;
   std::array<bool, 3> periodic;  // per axis: what leaves at one end comes in at the other; else there are walls
+  std::array<bool, 3> mirror;    // per axis: the lower end is a plane of symmetry in the place of a wall
 
   double length(int axis) const { return upper[axis] - lower[axis]; }
   double spacing(int axis) const { return length(axis) / cells[axis]; }
   double min_spacing() const;
   double cell_volume() const { return spacing(0) * spacing(1) * spacing(2); }
   std::size_t cell_count() const;
+  // At the lower (side 0) or upper (side 1) end of an axis.
+  bool has_wall(int axis, int side) const { return !periodic[axis] && !(mirror[axis] && side == 0); }
   bool has_walls() const { return !(periodic[0] && periodic[1] && periodic[2]); }
 
   friend bool operator==(const Grid&, const Grid&) = default;

@@ -67,7 +67,7 @@ struct FluidReport {
 };
 
 // Solves   Re [du/dt + (u.grad)u] = -grad p + div(mu (grad u + grad u^T)) + f,   div u = 0,
-// u given on the walls, all fields repeating across periodic axes.
+// u given on the walls, all fields repeating across periodic axes and symmetric about mirrors (Grid).
 //
 // One step (paper, Section 3.3, Step 3; Guermond, Minev & Shen 2006, doi:10.1016/j.cma.2005.10.010), equal steps:
 //   Re [(3u* - 4u^k + u^{k-1}) / (2dt) + 2N(u^k) - N(u^{k-1})] = -grad p^k + mu Lap u* + f,   u* = u^{k+1} on the walls

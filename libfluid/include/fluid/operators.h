@@ -1,7 +1,8 @@
 // Second-order difference operators of the staggered grid.
 //
 // Face results are set on the unknowns (inner faces, and on periodic axes all but the last, which is the first again);
-// faces on walls and ghosts are left as they are. All
+// faces on walls and mirrors and ghosts are left as they are. On a grid with mirrors all results are those on the whole
+// box. All
 // loops are parallel, and give the same bits for every number of threads.
 #pragma once
 
@@ -25,7 +26,7 @@ double max_divergence(const FaceVector& u);
 //   N_c = sum over axes d of [ubar_{d+} c_{d+} - ubar_{d-} c_{d-}] / (2 h_d),
 // where c_{d+-} are the neighbours along d and ubar_{d+-} the velocity along d, averaged to the points midway
 // to them. With zero walls <u, N(u)> = 0 to round-off for every discretely divergence-free *or not* u: it
-// does no work. Reads the tangential ghosts of u next to the walls (see WallVelocity::fill_ghosts).
+// does no work. Reads the tangential ghosts of u next to the walls or mirrors (see WallVelocity::fill_ghosts).
 void convection(const FaceVector& u, FaceVector& n);
 
 }  // namespace vesiflow::fluid

@@ -27,7 +27,7 @@ struct StokesReport {
   double seconds = 0.0;                        // wall time of this solve
 };
 
-// Solves   -div(mu (grad u + grad u^T)) + grad p = f,   div u = 0,   u given on the walls,
+// Solves   -div(mu (grad u + grad u^T)) + grad p = f,   div u = 0,   u given on the walls, symmetric about mirrors,
 // with the difference operators of EllipticForm::stress, gradient() and divergence(), for a number or a field mu.
 //
 // Without walls f loses its mean (reported), as nothing could balance it, and the mean velocity is zero. The mean of the

@@ -38,8 +38,8 @@ class Viscosity {
   std::shared_ptr<const Field<Cell>> field_;
 };
 
-// Sets all ghosts of a coefficient at cell centres: next to walls the value of the cell inside, across a periodic axis
-// the cell of the other end.
+// Sets all ghosts of a coefficient at cell centres: next to walls and mirrors the value of the cell inside, across a
+// periodic axis the cell of the other end.
 void extend_to_ghosts(Field<Cell>& field);
 
 // Samples a function of position at the cell centres, and extends it to the ghosts.
