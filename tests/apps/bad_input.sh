@@ -45,7 +45,7 @@ echo "not a checkpoint" >"$work/text.h5"
 refused 2 'no_such_file.toml.*cannot be read' "$work/no_such_file.toml"
 refused 2 'wrong_type.toml:2: domain.cells = .*whole number' "$work/wrong_type.toml"
 refused 2 'unknown_key.toml:2: fluid.reynolds.*did you mean fluid.reynolds_number' "$work/unknown_key.toml"
-refused 2 'negative_viscosity.toml:2: fluid.viscosity_ratio = -1.*> 0' "$work/negative_viscosity.toml"
+refused 2 'negative_viscosity.toml:2: fluid.viscosity_ratio = -1.*in \[0.05, 100\]' "$work/negative_viscosity.toml"
 refused 2 'not_toml.toml:[0-9]+: not valid TOML' "$work/not_toml.toml"
 refused 2 'no_vesicle.toml.*vesicles' "$work/no_vesicle.toml"
 refused 2 'vesicles.0.centre.*walls' "$scene" --set 'vesicles.0.centre=[5.5, 0, 0]'
