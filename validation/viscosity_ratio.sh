@@ -29,6 +29,5 @@ for steps in 48 96; do
 done
 case_of 20 7.4 extrapolated 384
 case_of 5 4 none 96
-case_of 20 7.4 none 96
 
 scripts/python.sh validation/viscosity_ratio_table.py "$out"
