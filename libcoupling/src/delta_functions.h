@@ -44,7 +44,7 @@ struct SmoothedFourPointFunction {
   static constexpr double outer_constant = 55.0 / 48.0 - root3 * std::numbers::pi / 108.0;
   // asin(x) of x = sqrt(3) (2 t - 1)/2, whose cosine is s/2: twice the arctangent of z = x/(1 + s/2), |z| <= 1/sqrt(3).
   // atan(z)/z is the polynomial in z^2 through 14 Chebyshev points of [0, 1/3], off by less than 1e-17, in two halves that are
-  // summed side by side. Several times faster than std::asin, which took most of the time of the weights.
+  // summed side by side. Without calls and branches the weights of several axes are computed at once; std::asin stops that.
   static double angle(double t, double s) {
     constexpr std::array<double, 14> c{
         1.0,
