@@ -1,7 +1,7 @@
 // Spreading to and interpolating from the grid by each delta function: 8192 markers on 128^3, one thread.
 //   build/release/bench/transfer
 // The counter ns_per_marker is what a membrane pays per call. `weights` is MarkerTransfer::update. "periodic" is the same
-// membrane across the corner of a periodic box: nearly half of its markers wrap in some direction.
+// membrane around the corner of a periodic box.
 #include <benchmark/benchmark.h>
 #include <omp.h>
 

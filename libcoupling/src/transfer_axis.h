@@ -45,7 +45,7 @@ struct AxisStencil {
 
 /// Weights at `s` (in grid spacings from point 0).
 template <class Function>
-AxisStencil<Function::width> stencil_at(double s) {
+[[gnu::always_inline]] inline AxisStencil<Function::width> stencil_at(double s) {
   const double x = s - 0.5 * Function::width, below = std::floor(x);
   return {static_cast<std::int32_t>(below) + 1, Function::weights(x - below)};
 }

@@ -54,17 +54,23 @@ class MarkerTransfer::KernelLoops final : public MarkerTransfer::Loops {
   using Normal = typename Functions::Normal;          // of faces along an axis: the component of that axis
   using Tangential = typename Functions::Tangential;  // of cell centres along an axis: the two other components
 
+  // Kept small: writing and reading these takes much of the time of all calls.
   struct Stencil {
-    std::array<AxisStencil<Normal::width>, 3> faces;
-    std::array<AxisStencil<Tangential::width>, 3> centres;
-    bool wraps;  // somewhere from the last point of a periodic axis to the first
+    std::array<std::int32_t, 3> first_face, first_centre;
+    std::array<std::array<double, Normal::width>, 3> at_faces;
+    std::array<std::array<double, Tangential::width>, 3> at_centres;
+  };
+  template <std::size_t width>
+  struct Points {
+    int first;
+    const std::array<double, width>& weights;
   };
   template <int component, int axis>
-  static const auto& points(const Stencil& stencil) {
+  static auto points(const Stencil& stencil) {
     if constexpr (axis == component)
-      return stencil.faces[axis];
+      return Points<Normal::width>{stencil.first_face[axis], stencil.at_faces[axis]};
     else
-      return stencil.centres[axis];
+      return Points<Tangential::width>{stencil.first_centre[axis], stencil.at_centres[axis]};
   }
 
   // The planes z of one thread, counted from the first of the box.
@@ -72,7 +78,7 @@ class MarkerTransfer::KernelLoops final : public MarkerTransfer::Loops {
     int begin, end;
   };
 
-  bool place(double position, int axis, Stencil& stencil) const;
+  [[gnu::always_inline]] bool place(double position, int axis, Stencil& stencil, std::uint8_t& wraps) const;
   static IndexRange span_of(const Stencil& stencil, int axis);
   IndexRange touched_range(int axis) const;
   int plane_in_box(int k) const {
@@ -94,6 +100,7 @@ class MarkerTransfer::KernelLoops final : public MarkerTransfer::Loops {
 
   std::array<TransferAxis, 3> axes_;
   std::vector<Stencil> stencils_;
+  std::vector<std::uint8_t> wraps_;  // whether a marker's points go from the last of a periodic axis to the first
   Box box_{};
   // Periodic axes: whether some marker's points begin there.
   std::array<std::vector<std::uint8_t>, 3> touched_;
@@ -102,20 +109,19 @@ class MarkerTransfer::KernelLoops final : public MarkerTransfer::Loops {
 // The points of both functions together, before they are wrapped.
 template <class Functions>
 MarkerTransfer::IndexRange MarkerTransfer::KernelLoops<Functions>::span_of(const Stencil& stencil, int axis) {
-  const int faces = stencil.faces[axis].first, centres = stencil.centres[axis].first;
+  const int faces = stencil.first_face[axis], centres = stencil.first_centre[axis];
   const int first = std::min(faces, centres);
   return {first, std::max(faces + Normal::width, centres + Tangential::width) - first};
 }
 
 template <class Functions>
-bool MarkerTransfer::KernelLoops<Functions>::place(double position, int axis, Stencil& stencil) const {
+inline bool MarkerTransfer::KernelLoops<Functions>::place(double position, int axis, Stencil& stencil,
+                                                          std::uint8_t& wraps) const {
   const TransferAxis& along = axes_[axis];
   const TransferAxis::Place at = along.place(position);
   if (!at.allowed) return false;
-  auto& faces = stencil.faces[axis];
-  auto& centres = stencil.centres[axis];
-  faces = stencil_at<Normal>(at.s);
-  centres = stencil_at<Tangential>(at.s - 0.5);
+  auto faces = stencil_at<Normal>(at.s);
+  auto centres = stencil_at<Tangential>(at.s - 0.5);
   if (along.mirrored) {
     fold_faces(faces, at.reflected);
     fold_centres(centres);
@@ -123,9 +129,12 @@ bool MarkerTransfer::KernelLoops<Functions>::place(double position, int axis, St
   if (along.periodic) {
     faces.first = along.wrapped(faces.first);
     centres.first = along.wrapped(centres.first);
-    if (faces.first + Normal::width > along.cells || centres.first + Tangential::width > along.cells)
-      stencil.wraps = true;
+    if (std::max(faces.first + Normal::width, centres.first + Tangential::width) > along.cells) wraps = 1;
   }
+  stencil.first_face[axis] = faces.first;
+  stencil.first_centre[axis] = centres.first;
+  stencil.at_faces[axis] = faces.weights;
+  stencil.at_centres[axis] = centres.weights;
   return true;
 }
 
@@ -134,6 +143,7 @@ MarkerTransfer::Loops::Refusal MarkerTransfer::KernelLoops<Functions>::update(
     const Eigen::Ref<const vesicle::VectorField>& positions) {
   const Eigen::Index count = positions.rows();
   stencils_.resize(static_cast<std::size_t>(count));
+  wraps_.resize(stencils_.size());
   for (auto& touched : touched_) std::ranges::fill(touched, std::uint8_t{0});
   constexpr int highest = std::numeric_limits<int>::max();
   std::array<int, 3> first{highest, highest, highest}, last{-1, -1, -1};
@@ -143,15 +153,16 @@ MarkerTransfer::Loops::Refusal MarkerTransfer::KernelLoops<Functions>::update(
 #pragma omp parallel for schedule(static) reduction(min : refused, lows[:3]) reduction(max : highs[:3])
   for (Eigen::Index m = 0; m < count; ++m) {
     Stencil& stencil = stencils_[static_cast<std::size_t>(m)];
-    stencil.wraps = false;
+    std::uint8_t& wraps = wraps_[static_cast<std::size_t>(m)];
+    wraps = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      if (!place(positions(m, axis), axis, stencil)) {
+      if (!place(positions(m, axis), axis, stencil, wraps)) {
         refused = std::min(refused, m);
         continue;
       }
       const IndexRange span = span_of(stencil, axis);
       if (axes_[axis].periodic) {
-        std::atomic_ref(touched_[axis][static_cast<std::size_t>(stencil.faces[axis].first)])
+        std::atomic_ref(touched_[axis][static_cast<std::size_t>(stencil.first_face[axis])])
             .store(1, std::memory_order_relaxed);
         continue;
       }
@@ -221,13 +232,13 @@ void MarkerTransfer::KernelLoops<Functions>::spread_component(const Share& share
   for (std::size_t m = 0; m < stencils_.size(); ++m) {
     const Stencil& stencil = stencils_[m];
     const double strength = force[m] * area_weight[m] * factor;
-    if (stencil.wraps) {
+    if (wraps_[m] != 0) {
       spread_wrapped<component>(stencil, share, strength, density);
       continue;
     }
-    const auto& x = points<component, 0>(stencil);
-    const auto& y = points<component, 1>(stencil);
-    const auto& z = points<component, 2>(stencil);
+    const auto x = points<component, 0>(stencil);
+    const auto y = points<component, 1>(stencil);
+    const auto z = points<component, 2>(stencil);
     const int z0 = plane_in_box(z.first);
     const int k_begin = std::max(0, share.begin - z0);
     const int k_end = std::min(static_cast<int>(z.weights.size()), share.end - z0);
@@ -259,9 +270,9 @@ template <class Functions>
 template <int component>
 void MarkerTransfer::KernelLoops<Functions>::spread_wrapped(const Stencil& stencil, const Share& share, double strength,
                                                             const fluid::View& density) const {
-  const auto& [x0, x] = points<component, 0>(stencil);
-  const auto& [y0, y] = points<component, 1>(stencil);
-  const auto& [z0, z] = points<component, 2>(stencil);
+  const auto [x0, x] = points<component, 0>(stencil);
+  const auto [y0, y] = points<component, 1>(stencil);
+  const auto [z0, z] = points<component, 2>(stencil);
   const auto ix = wrapped_points<std::tuple_size_v<std::decay_t<decltype(x)>>>(0, x0);
   const auto iy = wrapped_points<std::tuple_size_v<std::decay_t<decltype(y)>>>(1, y0);
   const auto iz = wrapped_points<std::tuple_size_v<std::decay_t<decltype(z)>>>(2, z0);
@@ -283,7 +294,7 @@ void MarkerTransfer::KernelLoops<Functions>::interpolate(const std::array<fluid:
 #pragma omp parallel for schedule(static)
   for (Eigen::Index m = 0; m < count; ++m) {
     const Stencil& stencil = stencils_[static_cast<std::size_t>(m)];
-    if (stencil.wraps) {
+    if (wraps_[static_cast<std::size_t>(m)] != 0) {
       marker_velocity(m, 0) = interpolated_wrapped<0>(stencil, velocity[0]);
       marker_velocity(m, 1) = interpolated_wrapped<1>(stencil, velocity[1]);
       marker_velocity(m, 2) = interpolated_wrapped<2>(stencil, velocity[2]);
@@ -299,10 +310,10 @@ template <class Functions>
 template <int component>
 double MarkerTransfer::KernelLoops<Functions>::interpolated(const Stencil& stencil,
                                                             const fluid::ConstView& velocity) const {
-  const auto& x = points<component, 0>(stencil);
-  const auto& y = points<component, 1>(stencil);
-  const auto& z = points<component, 2>(stencil);
-  std::array<double, std::tuple_size_v<decltype(x.weights)>> along_x{};
+  const auto x = points<component, 0>(stencil);
+  const auto y = points<component, 1>(stencil);
+  const auto z = points<component, 2>(stencil);
+  std::array<double, std::tuple_size_v<std::decay_t<decltype(x.weights)>>> along_x{};
   for (std::size_t k = 0; k < z.weights.size(); ++k) {
     const double* corner = velocity.row(y.first, z.first + static_cast<int>(k)) + x.first;
     for (std::size_t j = 0; j < y.weights.size(); ++j) {
@@ -320,9 +331,9 @@ template <class Functions>
 template <int component>
 double MarkerTransfer::KernelLoops<Functions>::interpolated_wrapped(const Stencil& stencil,
                                                                     const fluid::ConstView& velocity) const {
-  const auto& [x0, x] = points<component, 0>(stencil);
-  const auto& [y0, y] = points<component, 1>(stencil);
-  const auto& [z0, z] = points<component, 2>(stencil);
+  const auto [x0, x] = points<component, 0>(stencil);
+  const auto [y0, y] = points<component, 1>(stencil);
+  const auto [z0, z] = points<component, 2>(stencil);
   const auto ix = wrapped_points<std::tuple_size_v<std::decay_t<decltype(x)>>>(0, x0);
   const auto iy = wrapped_points<std::tuple_size_v<std::decay_t<decltype(y)>>>(1, y0);
   const auto iz = wrapped_points<std::tuple_size_v<std::decay_t<decltype(z)>>>(2, z0);

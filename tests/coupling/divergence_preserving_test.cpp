@@ -186,14 +186,11 @@ double mean_over_spheres(const Value& value) {
   return std::sqrt(sum / std::size(centres));
 }
 
-// Net flux through a sphere over its area, by a quadrature of as many latitudes; the speed of the flow is about 1.
-double flux(DeltaKernel kernel, const fluid::FaceVector& u, int latitudes) {
+// Net flux through a sphere over its area, by the quadrature of a surface; the speed of the flow is about 1.
+double flux(DeltaKernel kernel, const fluid::FaceVector& u, const vesicle::Surface& surface) {
   return mean_over_spheres([&](const fluid::Vector3& centre) {
     MarkerTransfer transfer(grid, kernel);
-    const VectorField x = sphere_of(latitudes, centre);
-    vesicle::Surface surface(latitudes);
-    surface.update(x);
-    const VectorField velocity = interpolated(transfer, u, x);
+    const VectorField velocity = interpolated(transfer, u, sphere_of(surface.grid().latitudes(), centre));
     return ((surface.normal() * velocity).rowwise().sum() * surface.area_weight()).sum() / surface.area();
   });
 }
@@ -201,9 +198,12 @@ double flux(DeltaKernel kernel, const fluid::FaceVector& u, int latitudes) {
 TEST(DivergencePreserving, FluxThroughAClosedSurfaceFallsToTheErrorOfTheQuadrature) {
   const fluid::FaceVector u = frozen_flow();
   std::map<DeltaKernel, double> coarse, fine;
+  vesicle::Surface of_32(32), of_128(128);
+  of_32.update(sphere_of(32, {0, 0, 0}));
+  of_128.update(sphere_of(128, {0, 0, 0}));
   for (const DeltaKernel kernel : delta_kernels) {
-    coarse[kernel] = flux(kernel, u, 32);
-    fine[kernel] = flux(kernel, u, 128);
+    coarse[kernel] = flux(kernel, u, of_32);
+    fine[kernel] = flux(kernel, u, of_128);
     record("flux_32_latitudes", kernel, coarse[kernel]);
     record("flux_128_latitudes", kernel, fine[kernel]);
   }
