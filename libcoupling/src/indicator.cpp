@@ -25,12 +25,12 @@ void repeat_last_faces(fluid::FaceVector& g) {
 
 }  // namespace
 
-Indicator::Indicator(const fluid::Grid& grid, std::size_t membranes)
+Indicator::Indicator(const fluid::Grid& grid, std::size_t membranes, DeltaKernel kernel)
     : jump_(grid),
       solver_(fluid::make_elliptic_solver({grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0},
                                           fluid::FftOptions{})) {
   membranes_.reserve(membranes);
-  for (std::size_t i = 0; i < membranes; ++i) membranes_.push_back({MarkerTransfer(grid), {}, false});
+  for (std::size_t i = 0; i < membranes; ++i) membranes_.push_back({MarkerTransfer(grid, kernel), {}, false});
 }
 
 void Indicator::add(std::size_t membrane, const vesicle::Surface& surface, double value) {

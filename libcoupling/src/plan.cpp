@@ -140,6 +140,14 @@ void describe_external_forces(Plan& plan, const Scene& scene) {
             "repulsion.range = 0");
 }
 
+std::string describe_kernel(DeltaKernel kernel) {
+  const int normal = support_width(kernel, Direction::normal), across = support_width(kernel, Direction::tangential);
+  const std::string points = normal == across ? fmt::format("{}", normal)
+                                              : fmt::format("{} along a component and {} across it", normal, across);
+  return fmt::format("delta function \"{}\", points {}{}", name(kernel), points,
+                     interpolation(kernel) == Interpolation::divergence_preserving ? ", preserving divergence" : "");
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.tension_number() > 0.0;
   const bool moving = scene.flow.type != FlowType::rest;
@@ -161,7 +169,7 @@ void describe_step(Plan& plan, const Scene& scene) {
             fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
             "membrane.volume is not \"penalty\"");
   describe_external_forces(plan, scene);
-  plan.part(true, "spread, interpolate", "smoothed 4-point delta, in the bounding box of the markers", "");
+  plan.part(true, "spread, interpolate", describe_kernel(scene.coupling.kernel), "");
   describe_fluid(plan, scene);
   plan.part(moving, "wall velocity", scene.flow.type == FlowType::custom ? "of a program" : flow_of(scene).description,
             "flow.type = \"rest\"");

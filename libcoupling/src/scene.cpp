@@ -133,7 +133,7 @@ void check_vesicle_keys(const Scene& scene, std::size_t i, const std::string& na
 
 void check_inside_box(const Scene& scene, std::size_t i, const std::string& name) {
   const vesicle::VectorField markers = checked_markers(scene, i, name);
-  const double distance = wall_distance(DeltaKernel::smoothed_four_point);
+  const double distance = wall_distance(scene.coupling.kernel);
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = static_cast<std::size_t>(axis);
     if (scene.domain.periodic[u]) continue;

@@ -27,7 +27,7 @@ namespace vesiflow::coupling {
 class Indicator {
  public:
   /// \param membranes their number
-  Indicator(const fluid::Grid& grid, std::size_t membranes);
+  Indicator(const fluid::Grid& grid, std::size_t membranes, DeltaKernel kernel = DeltaKernel::smoothed_four_point);
 
   /// Adds a membrane, with its geometry as it is, to what the next solve() is of; nothing if the value is 0.
   /// \throws SimulationStopped when a marker is too near to a wall

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/delta_kernel.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/coefficients.h"
 #include "vesicle/laplace_beltrami.h"
@@ -80,6 +81,9 @@ struct Scene {
     SolverChoice velocity_solver = SolverChoice::automatic;
     SolverChoice pressure_solver = SolverChoice::automatic;
   } fluid;
+  struct Coupling {
+    DeltaKernel kernel = DeltaKernel::smoothed_four_point;
+  } coupling;
   struct Membrane {
     double capillary_number = 2.5;
     double sigma0 = 600.0;
