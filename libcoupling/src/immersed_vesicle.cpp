@@ -39,7 +39,7 @@ ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const f
     : membrane(initial_markers(scene.vesicles[number], scene.latitudes(number)), scene.latitudes(number),
                membrane_parameters(scene, number)),
       transfer(grid),
-      motion(make_membrane_motion(scene, membrane)) {
+      motion(make_membrane_motion(scene, number, membrane)) {
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
   velocity_at_ = [this](const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity) {
