@@ -4,21 +4,36 @@
 
 namespace vesiflow::coupling {
 
-Gmres::Gmres(int iterations)
-    : max_iterations_(iterations),
-      hessenberg_(iterations + 1, iterations),
-      cosines_(iterations),
-      sines_(iterations),
-      right_side_(iterations + 1) {}
+Gmres::Gmres(int max_iterations)
+    : max_iterations_(max_iterations),
+      hessenberg_(max_iterations + 1, max_iterations),
+      cosines_(max_iterations),
+      sines_(max_iterations),
+      right_side_(max_iterations + 1) {}
+
+// Applies the rotations so far to a new column of the Hessenberg matrix, and makes and applies the one that clears its last row.
+void Gmres::rotate(int k) {
+  for (int i = 0; i < k; ++i) {
+    const double upper = hessenberg_(i, k), lower = hessenberg_(i + 1, k);
+    hessenberg_(i, k) = cosines_(i) * upper + sines_(i) * lower;
+    hessenberg_(i + 1, k) = cosines_(i) * lower - sines_(i) * upper;
+  }
+  const double diagonal = std::hypot(hessenberg_(k, k), hessenberg_(k + 1, k));
+  cosines_(k) = hessenberg_(k, k) / diagonal;
+  sines_(k) = hessenberg_(k + 1, k) / diagonal;
+  hessenberg_(k, k) = diagonal;
+  right_side_(k + 1) = -sines_(k) * right_side_(k);
+  right_side_(k) *= cosines_(k);
+}
 
 Gmres::Report Gmres::solve(const Operator& apply, const Vector& b, double tolerance, Vector& x) {
   x.setZero(b.size());
   const double size = b.norm();
   if (size == 0.0) return {};
   basis_.resize(b.size(), max_iterations_ + 1);
+  basis_.col(0) = b / size;
   right_side_.setZero();
   right_side_(0) = size;
-  basis_.col(0) = b / size;
   int k = 0;
   double residual = 1.0;
   while (k < max_iterations_ && residual > tolerance) {
@@ -31,26 +46,16 @@ Gmres::Report Gmres::solve(const Operator& apply, const Vector& b, double tolera
     const double length = product_.norm();
     hessenberg_(k + 1, k) = length;
     if (length > 0.0) basis_.col(k + 1) = product_ / length;
-    for (int i = 0; i < k; ++i) {
-      const double upper = hessenberg_(i, k), lower = hessenberg_(i + 1, k);
-      hessenberg_(i, k) = cosines_(i) * upper + sines_(i) * lower;
-      hessenberg_(i + 1, k) = cosines_(i) * lower - sines_(i) * upper;
-    }
-    const double diagonal = std::hypot(hessenberg_(k, k), length);
-    cosines_(k) = hessenberg_(k, k) / diagonal;
-    sines_(k) = length / diagonal;
-    hessenberg_(k, k) = diagonal;
-    right_side_(k + 1) = -sines_(k) * right_side_(k);
-    right_side_(k) *= cosines_(k);
-    residual = std::abs(right_side_(k + 1)) / size;
+    rotate(k);
     ++k;
+    residual = std::abs(right_side_(k)) / size;
   }
+  // Back substitution; the coefficients of the basis take the place of the right-hand side.
   for (int i = k - 1; i >= 0; --i) {
-    double sum = right_side_(i);
-    for (int j = i + 1; j < k; ++j) sum -= hessenberg_(i, j) * cosines_(j);
-    cosines_(i) = sum / hessenberg_(i, i);  // from here on the coefficients of the basis
+    for (int j = i + 1; j < k; ++j) right_side_(i) -= hessenberg_(i, j) * right_side_(j);
+    right_side_(i) /= hessenberg_(i, i);
+    x += right_side_(i) * basis_.col(i);
   }
-  for (int i = 0; i < k; ++i) x += cosines_(i) * basis_.col(i);
   return {k, residual};
 }
 

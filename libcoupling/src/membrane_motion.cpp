@@ -56,8 +56,9 @@ class MaterialMotion final : public MembraneMotion {
 
 }  // namespace
 
-std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, const vesicle::Membrane& membrane) {
-  if (scene.time.markers == "shape_following") return make_shape_following(scene, membrane);
+std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::size_t vesicle,
+                                                     const vesicle::Membrane& membrane) {
+  if (scene.time.markers == "shape_following") return std::make_unique<ShapeFollowing>(scene, vesicle, membrane);
   return std::make_unique<MaterialMotion>(scene, membrane);
 }
 

@@ -52,6 +52,7 @@ class MembraneMotion {
 };
 
 /// The motion that time.markers names, for this membrane.
-std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, const vesicle::Membrane& membrane);
+std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::size_t vesicle,
+                                                     const vesicle::Membrane& membrane);
 
 }  // namespace vesiflow::coupling

@@ -1,297 +1,325 @@
 #include "shape_following.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <optional>
-#include <vector>
+#include <numbers>
+#include <stdexcept>
 
-#include <Eigen/Geometry>
-
-#include "gmres.h"
-#include "vesicle/conservation.h"
 #include "vesicle/rigid_motion.h"
-#include "vesicle/spherical_harmonics.h"
 
 namespace vesiflow::coupling {
 namespace {
 
 using vesicle::Coefficients;
-using vesicle::ScalarField;
+using vesicle::Surface;
 using vesicle::VectorField;
 
-double env(const char* name, double value) {
-  const char* text = std::getenv(name);
-  return text ? std::atof(text) : value;
+// Directions of the conserving displacements; with 16 degrees, what they add to the shape feeds on itself.
+constexpr int smooth_degrees = 5;
+// Below this share of varying curvature a vesicle is a sphere to the conservation of area.
+constexpr double smallest_independence = 1e-3;
+// The highest degree decays at this many times the rate at which the membrane is swept along, degree n by (n/p)^8 of it: waves
+// near the resolution of the grid, which the fluid hardly feels, would otherwise grow by a factor 4 in unit time.
+constexpr double damping = 8.0;
+constexpr double gmres_tolerance = 1e-4;
+// Z over the rates of MembraneResponse, without inertia and where inertia dominates the response (seen by trial: 1.5 is unstable
+// there at Re = 1).
+constexpr double safety = 1.5, safety_with_inertia = 3.0;
+
+Eigen::Map<Eigen::VectorXd> as_vector(Coefficients& c) {
+  return {reinterpret_cast<double*>(c.block(0, 0)), Eigen::Index(c.fields()) * c.degrees() * (c.degrees() + 1)};
 }
-
-class ShapeFollowing final : public MembraneMotion {
- public:
-  ShapeFollowing(const Scene& scene, const vesicle::Membrane& membrane)
-      : scene_(scene),
-        degrees_(int(env("DEG", vesicle::two_thirds_degrees(scene.mesh.latitudes)))),
-        harmonics_(degrees_, membrane.surface().grid(), 4),
-        positions_(membrane.positions()),
-        strain_(ScalarField::Zero(positions_.rows())),
-        position_step_(VectorField::Zero(positions_.rows(), 3)),
-        strain_step_(ScalarField::Zero(positions_.rows())),
-        velocity_(positions_.rows(), 3),
-        mesh_(positions_.rows(), 3),
-        gradient_(positions_.rows(), 3),
-        divergence_(positions_.rows()),
-        rates_(positions_.rows(), 4),
-        steps_(positions_.rows(), 4),
-        theta_(positions_.rows(), 4),
-        phi_(positions_.rows(), 4) {
-    vesicle::Conserved conserved;
-    conserved.volume = membrane.initial_volume();
-    if (env("AREA", 1) > 0) conserved.area = membrane.initial_area();
-    conservation_.emplace(membrane.surface().grid(), conserved, int(env("SMOOTH", degrees_ / 2)));
-    radius_ = std::sqrt(membrane.initial_area() / (4 * M_PI));
-  }
-
-  bool predict(double dt, vesicle::Membrane& membrane) override {
-    const double r = ratio(dt);
-    if (fresh_) {
-      positions_ = membrane.positions();
-      membrane.update_geometry();
-      strain_ = (membrane.surface().area_weight() / membrane.target_areas()).log();
-      fresh_ = false;
-    }
-    velocity_ = positions_ + r * position_step_;
-    divergence_ = strain_ + r * strain_step_;
-    membrane.move_to(velocity_, divergence_);
-    predicted_strain_ = divergence_;
-    has_owed_ = false;
-    if (owed_coefficients_.degrees() > 0 && scene_.fluid.inertia != fluid::Inertia::none && env("TH", 1) > 0) {
-      has_owed_ = true;
-      const double re = scene_.fluid.reynolds_number / dt * env("TH", 1);
-      work_ = owed_coefficients_;
-      as_vector(work_) *= re * (1 + r);
-      if (older_owed_.degrees() > 0) as_vector(work_) -= re * r * r / (1 + r) * as_vector(older_owed_);
-      harmonics_.synthesis(work_, steps_);
-      membrane.surface().projector_divergence(steps_.col(3), owed_);
-      owed_ += steps_.leftCols<3>();
-    }
-    return true;
-  }
-
-  void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
-               MarkerVelocities& velocities) override {
-    const vesicle::Surface& surface = membrane.surface();
-    tension_ = std::max(0.0, membrane.tension().maxCoeff());
-    {
-      const ScalarField& h = surface.mean_curvature();
-      const double mean = (h * surface.area_weight()).sum() / surface.area();
-      curvature_variance_ = 4 * ((h - mean).square() * surface.area_weight()).sum() / surface.area();
-      if (env("VERB", 0) > 0) std::fprintf(stderr, "4 var H %.3f\n", curvature_variance_);
-    }
-    velocity_at(surface.positions(), velocities.fluid);
-    find_rates(surface, velocities);
-    surface.gradient(predicted_strain_, gradient_);
-    rates_.leftCols<3>() = mesh_;
-    rates_.col(3) = divergence_ - ((velocity_ - mesh_) * gradient_).rowwise().sum();
-    velocities.mesh = mesh_;
-
-    const double r = ratio(dt), a0 = (1 + 2 * r) / (1 + r), a1 = r * r / (1 + r);
-    harmonics_.analysis(rates_, rate_coefficients_);
-    steps_.leftCols<3>() = position_step_;
-    steps_.col(3) = strain_step_;
-    harmonics_.analysis(steps_, step_coefficients_);
-    // slip in the coordinates of the mesh
-    gradient_ = velocity_ - mesh_;
-    slip_theta_ = dt * (gradient_ * surface.geometry().dual_theta()).rowwise().sum();
-    slip_phi_ = dt * (gradient_ * surface.geometry().dual_phi()).rowwise().sum();
-    work_.resize(degrees_, 4);
-    if (scale_.size() == 0) {
-      scale_.resize(size_of(work_));
-    }
-    work_.set_zero();
-    for (int n = 0; n < degrees_; ++n) {
-      const double bending = bending_stiffness(n, dt, a0) + dt * damping(n),
-                   tension = tension_stiffness(n, dt, a0) + dt * damping(n);
-      for (int m = 0; m <= n; ++m)
-        for (int f = 0; f < 4; ++f)
-          work_(f, n, m) = {1 / (a0 + (f < 3 ? bending : tension)), 1 / (a0 + (f < 3 ? bending : tension))};
-    }
-    scale_ = as_vector(work_);
-    positions_and_strain_.resize(positions_.rows(), 4);
-    positions_and_strain_.leftCols<3>() = surface.positions();
-    positions_and_strain_.col(3) = predicted_strain_;
-    harmonics_.analysis(positions_and_strain_, work_);
-    for (int n = 0; n < degrees_; ++n)
-      for (int m = 0; m <= n; ++m)
-        for (int f = 0; f < 4; ++f) rate_coefficients_(f, n, m) -= damping(n) * work_(f, n, m);
-    right_ = ((a1 - a0 * r) * as_vector(step_coefficients_) + dt * as_vector(rate_coefficients_)).cwiseProduct(scale_);
-    const auto apply = [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
-      as_vector(work_) = x;
-      harmonics_.gradient(work_, theta_, phi_);
-      for (int f = 0; f < 4; ++f) theta_.col(f) = slip_theta_ * theta_.col(f) + slip_phi_ * phi_.col(f);
-      harmonics_.analysis(theta_, work_);
-      y = x + as_vector(work_).cwiseProduct(scale_);
-    };
-    const auto report = gmres_.solve(apply, right_, env("TOL", 1e-4), solution_);
-    if (env("VERB", 0) > 0)
-      std::fprintf(stderr, "gmres %d %.1e |eta| %.2e\n", report.iterations, report.residual, solution_.norm());
-    // impulses owed
-    work_ = step_coefficients_;
-    as_vector(step_coefficients_) = r * as_vector(step_coefficients_) + solution_;
-    if (owed_coefficients_.degrees() > 0) older_owed_ = owed_coefficients_;
-    owed_coefficients_.resize(degrees_, 4);
-    for (int n = 0; n < degrees_; ++n)
-      for (int m = 0; m <= n; ++m)
-        for (int f = 0; f < 4; ++f) {
-          const auto change = step_coefficients_(f, n, m) - r * work_(f, n, m);
-          owed_coefficients_(f, n, m) =
-              f < 3 ? -env("CB", 1.5) * normal_force(n) * responses_[n].normal2 / responses_[n].normal * change
-                    : (n == 0 ? env("C0", 1.5) * responses_[2].normal2 / responses_[2].normal
-                              : env("CG", 1.5) * responses_[n].along2 / responses_[n].along) *
-                          scene_.membrane.sigma0 * change;
-        }
-    harmonics_.synthesis(step_coefficients_, steps_);
-    position_step_ = steps_.leftCols<3>();
-    strain_step_ = steps_.col(3);
-    gradient_ = positions_ + position_step_ - surface.positions();
-    velocity_ = gradient_;
-    conservation_->correct_displacement(surface, gradient_);
-    if (env("OC", 1) > 0) {
-      velocity_ = gradient_ - velocity_;
-      harmonics_.analysis(velocity_, velocity_coefficients_);
-      for (int n = 0; n < degrees_; ++n)
-        for (int m = 0; m <= n; ++m)
-          for (int f = 0; f < 3; ++f) {
-            const auto& q = responses_[std::max(n, 2)];
-            owed_coefficients_(f, n, m) +=
-                env("OC", 1) * a0 / dt * q.normal2 / (q.normal * q.normal) * velocity_coefficients_(f, n, m);
-          }
-    }
-    gradient_ += surface.positions();
-    position_step_ = gradient_ - positions_;
-    positions_ = gradient_;
-    strain_ += strain_step_;
-    previous_dt_ = dt;
-    membrane.move_to(positions_, strain_);
-  }
-
-  void mesh_velocity(double, vesicle::Membrane& membrane, MarkerVelocities& velocities) override {
-    find_rates(membrane.surface(), velocities);
-    velocities.mesh = mesh_;
-  }
-
-  void restart() override {
-    fresh_ = true;
-    previous_dt_ = 0;
-    position_step_.setZero();
-    strain_step_.setZero();
-  }
-
-  const VectorField* owed_force() const override { return has_owed_ ? &owed_ : nullptr; }
-
- private:
-  static Eigen::Index size_of(const Coefficients& c) {
-    return Eigen::Index(2) * c.fields() * c.degrees() * (c.degrees() + 1) / 2;
-  }
-  static Eigen::Map<Eigen::VectorXd> as_vector(Coefficients& c) {
-    return {reinterpret_cast<double*>(c.block(0, 0)), size_of(c)};
-  }
-  double ratio(double dt) const { return previous_dt_ > 0 ? dt / previous_dt_ : 0.0; }
-
-  // U filtered, its divergence, and the velocity of the mesh that follows the shape.
-  void find_rates(const vesicle::Surface& surface, const MarkerVelocities& velocities) {
-    harmonics_.analysis(velocities.fluid, velocity_coefficients_);
-    harmonics_.synthesis(velocity_coefficients_, velocity_);
-    surface.divergence(velocity_, divergence_);
-    normal_velocity_ = (velocity_ * surface.normal()).rowwise().sum();
-    const vesicle::RigidMotion rigid = vesicle::rigid_motion_of_shape(surface, normal_velocity_);
-    for (Eigen::Index k = 0; k < mesh_.rows(); ++k) {
-      const Eigen::Vector3d n = surface.normal().row(k).matrix().transpose();
-      const Eigen::Vector3d x = surface.positions().row(k).matrix().transpose();
-      const Eigen::Vector3d v = rigid.velocity + rigid.angular_velocity.cross(x - rigid.centre);
-      mesh_.row(k) = (v + (normal_velocity_(k) - v.dot(n)) * n).transpose().array();
-    }
-  }
-
-  // Responses of a plane membrane, a sheet smeared by the delta function, per degree.
-  struct Response {
-    double along = 0, along2 = 0, normal = 0, normal2 = 0;
-  };
-  void find_responses(double dt, double a0) {
-    if (dt == response_dt_ && a0 == response_a0_) return;
-    response_dt_ = dt;
-    response_a0_ = a0;
-    const double mu = 0.5 * (1 + scene_.fluid.viscosity_ratio);
-    const double a = scene_.fluid.inertia == fluid::Inertia::none ? 0 : scene_.fluid.reynolds_number * a0 / dt;
-    const double h = scene_.spacing() * env("KER", 1);
-    responses_.resize(degrees_);
-    for (int n = 0; n < degrees_; ++n) {
-      const double k = (n + 0.5) / radius_;
-      Response r;
-      // kz = k tan(t)
-      const int points = 400;
-      for (int i = 0; i < points; ++i) {
-        const double t = (i + 0.5) * M_PI / 2 / points, kz = k * std::tan(t),
-                     w = M_PI / 2 / points * k / std::pow(std::cos(t), 2) / M_PI;
-        const double kk = k * k + kz * kz, d = a + mu * kk, phi = std::exp(-0.3818 * kz * kz * h * h);
-        r.along += w * phi * kz * kz / (kk * d);
-        r.along2 += w * phi * kz * kz / (kk * d * d);
-        r.normal += w * phi * k * k / (kk * d);
-        r.normal2 += w * phi * k * k / (kk * d * d);
-      }
-      const double in_plane = std::max(std::exp(-env("INP", 0.19) * k * k * h * h), env("FLOOR", 0.1));
-      r.along *= in_plane;
-      r.normal *= in_plane;
-      r.along2 *= in_plane;
-      r.normal2 *= in_plane;
-      responses_[n] = r;
-    }
-  }
-  double tension_stiffness(int n, double dt, double a0) {
-    find_responses(dt, a0);
-    const double k = (n + 0.5) / radius_;
-    if (n == 0 && env("N0", 1) > 0)
-      return env("C0", 1.5) * dt * scene_.membrane.sigma0 * curvature_variance_ * responses_[2].normal;
-    return env("CG", 1.5) * dt * scene_.membrane.sigma0 * k * k * responses_[n].along;
-  }
-  double damping(int n) const { return env("GAM", 0) * std::pow(n / (degrees_ - 1.0), env("POW", 8)); }
-  double normal_force(int n) const {
-    const double k = (n + 0.5) / radius_;
-    return k * k * (k * k / (4 * scene_.membrane.capillary_number) + tension_);
-  }
-  double bending_stiffness(int n, double dt, double a0) {
-    find_responses(dt, a0);
-    return env("CB", 1.5) * dt * normal_force(n) * responses_[n].normal;
-  }
-  std::vector<Response> responses_;
-  double response_dt_ = 0, response_a0_ = 0;
-
-  Scene scene_;
-  int degrees_;
-  vesicle::SphericalHarmonics harmonics_;
-  std::optional<vesicle::ConservationProjection> conservation_;
-  VectorField positions_;
-  ScalarField strain_, predicted_strain_;
-  VectorField position_step_;
-  ScalarField strain_step_;
-  VectorField velocity_, mesh_, gradient_;
-  ScalarField divergence_, normal_velocity_;
-  Eigen::ArrayXXd rates_, steps_;
-  Coefficients velocity_coefficients_, rate_coefficients_, step_coefficients_;
-  Eigen::ArrayXXd positions_and_strain_;
-  Coefficients work_, owed_coefficients_, older_owed_;
-  VectorField owed_;
-  bool has_owed_ = false;
-  Eigen::VectorXd scale_, right_, solution_;
-  ScalarField slip_theta_, slip_phi_;
-  Eigen::ArrayXXd theta_, phi_;
-  Gmres gmres_{40};
-  double tension_ = 0, curvature_variance_ = 0;
-  double radius_ = 1, previous_dt_ = 0;
-  bool fresh_ = true;
-};
 
 }  // namespace
 
-std::unique_ptr<MembraneMotion> make_shape_following(const Scene& scene, const vesicle::Membrane& membrane) {
-  return std::make_unique<ShapeFollowing>(scene, membrane);
+int ShapeFollowing::resolved_degrees(const Scene& scene, std::size_t vesicle, double radius) {
+  const int latitudes = scene.latitudes(vesicle);
+  const int chosen = scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(latitudes);
+  constexpr double largest_kh = 0.95 * std::numbers::pi;
+  const int by_grid = static_cast<int>(largest_kh * radius / scene.spacing());
+  return std::max(4, std::min(chosen, by_grid));
+}
+
+ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const vesicle::Membrane& membrane)
+    : sigma0_(membrane.parameters().sigma0),
+      bending_(0.25 / membrane.parameters().capillary_number),
+      reynolds_number_(scene.fluid.reynolds_number),
+      mean_viscosity_(0.5 * (1.0 + scene.viscosity_ratio(number))),
+      radius_(std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi))),
+      has_inertia_(scene.fluid.inertia != fluid::Inertia::none),
+      keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
+      harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
+      response_(harmonics_.degrees(), radius_, scene.spacing()),
+      operator_([this](const Gmres::Vector& x, Gmres::Vector& result) { apply_operator(x, result); }),
+      stiffness_(static_cast<std::size_t>(harmonics_.degrees())) {
+  const Eigen::Index markers = membrane.positions().rows();
+  for (State* field : {&state_, &increment_, &predicted_, &rates_, &theta_, &phi_})
+    *field = State::Zero(markers, fields());
+  for (VectorField* field : {&positions_, &velocity_, &mesh_velocity_, &vectors_, &owed_force_, &curvature_of_path_})
+    *field = VectorField::Zero(markers, 3);
+  coefficients_.resize(harmonics_.degrees(), fields());
+  impulse_ = older_impulse_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
+  impulse_.set_zero();
+  older_impulse_.set_zero();
+  vesicle::Conserved conserved;
+  if (keeps_volume_) conserved.volume = membrane.initial_volume();
+  volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
+  if (has_tension()) conserved.area = membrane.initial_area();
+  volume_and_area_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
+}
+
+// y* = y^k + r d^k.
+bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
+  if (!knows_state_) {
+    membrane.update_geometry();
+    state_.leftCols<3>() = membrane.positions();
+    if (has_tension() && !knows_strain_)
+      state_.col(3) = (membrane.surface().area_weight() / membrane.target_areas()).log();
+    knows_state_ = knows_strain_ = true;
+  }
+  predicted_ = state_ + step_ratio(dt) * increment_;
+  positions_ = predicted_.leftCols<3>();
+  strain_ = predicted_.col(fields() - 1);
+  if (!has_tension()) strain_.setZero();
+  membrane.move_to(positions_, strain_);
+  find_owed_force(dt, membrane.surface());
+  return true;
+}
+
+void ShapeFollowing::advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
+                             MarkerVelocities& velocities) {
+  const Surface& surface = membrane.surface();
+  largest_tension_ = std::max(0.0, membrane.tension().maxCoeff());
+  velocity_at(surface.positions(), velocities.fluid);
+  find_mesh_velocity(surface, velocities);
+  velocities.mesh = mesh_velocity_;
+  find_rates(surface);
+  find_stiffness(dt, surface);
+  solve_increment(dt);
+  estimate_error(step_ratio(dt));
+  conserve(surface);
+
+  state_ += increment_;
+  previous_dt_ = dt;
+  ++steps_;
+  positions_ = state_.leftCols<3>();
+  if (has_tension()) strain_ = state_.col(3);
+  membrane.move_to(positions_, strain_);
+}
+
+void ShapeFollowing::mesh_velocity(double /*dt*/, vesicle::Membrane& membrane, MarkerVelocities& velocities) {
+  find_mesh_velocity(membrane.surface(), velocities);
+  velocities.mesh = mesh_velocity_;
+}
+
+// U with the resolved degrees, and W.
+void ShapeFollowing::find_mesh_velocity(const Surface& surface, const MarkerVelocities& velocities) {
+  harmonics_.analysis(velocities.fluid, velocity_coefficients_);
+  harmonics_.synthesis(velocity_coefficients_, velocity_);
+  normal_velocity_ = (velocity_ * surface.normal()).rowwise().sum();
+  const vesicle::RigidMotion rigid = vesicle::rigid_motion_of_shape(surface, normal_velocity_);
+  const auto& v = rigid.velocity;
+  const auto& omega = rigid.angular_velocity;
+  double largest_square = 0.0;
+  for (Eigen::Index m = 0; m < mesh_velocity_.rows(); ++m) {
+    std::array<double, 3> r, along;
+    for (int i = 0; i < 3; ++i) r[i] = surface.positions()(m, i) - rigid.centre(i);
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      along[i] = v(i) + omega(j) * r[k] - omega(k) * r[j];
+    }
+    double excess = normal_velocity_(m), square = 0.0;
+    for (int i = 0; i < 3; ++i) excess -= along[i] * surface.normal()(m, i);
+    for (int i = 0; i < 3; ++i) {
+      mesh_velocity_(m, i) = along[i] + excess * surface.normal()(m, i);
+      square += (velocity_(m, i) - v(i)) * (velocity_(m, i) - v(i));
+    }
+    largest_square = std::max(largest_square, square);
+  }
+  largest_speed_ = std::sqrt(largest_square);
+}
+
+// (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh.
+void ShapeFollowing::find_rates(const Surface& surface) {
+  rates_.leftCols<3>() = mesh_velocity_;
+  slip_theta_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_theta()).rowwise().sum();
+  slip_phi_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_phi()).rowwise().sum();
+  if (!has_tension()) return;
+  surface.divergence(velocity_, divergence_);
+  surface.gradient(strain_, vectors_);
+  rates_.col(3) = divergence_ - ((velocity_ - mesh_velocity_) * vectors_).rowwise().sum();
+}
+
+void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
+  const double r = step_ratio(dt);
+  leading_ = (1.0 + 2.0 * r) / (1.0 + r);
+  last_ = r * r / (1.0 + r);
+  const double a = has_inertia_ ? reynolds_number_ * leading_ / dt : 0.0;
+  response_.update(a, mean_viscosity_);
+  const double c = safety + (safety_with_inertia - safety) * a / (a + mean_viscosity_ / (radius_ * radius_));
+  // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
+  double variance = 0.0;
+  if (has_tension()) {
+    const auto& h = surface.mean_curvature();
+    const double mean = (h * surface.area_weight()).sum() / surface.area();
+    variance = 4.0 * ((h - mean).square() * surface.area_weight()).sum() / surface.area();
+  }
+  const double top = std::pow(harmonics_.degrees() - 1, 8);
+  for (int n = 0; n < harmonics_.degrees(); ++n) {
+    const double k = response_.wavenumber(n);
+    const MembraneResponse::Mode& mode = response_[n];
+    const double force = c * k * k * (bending_ * k * k + largest_tension_);  // normal, per displacement
+    Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
+    z.position = dt * force * mode.normal;
+    z.position_impulse = -force * mode.normal_memory;
+    const MembraneResponse::Mode& uniform = response_[2];
+    z.strain = dt * c * sigma0_ * (n == 0 ? variance * uniform.normal : k * k * mode.along);
+    z.strain_impulse = c * sigma0_ * (n == 0 ? uniform.normal_memory : mode.along_memory);
+    z.damping = damping * largest_speed_ / radius_ * std::pow(n, 8) / top;
+  }
+}
+
+// Solves for d^{k+1} - r d^k, which is small: the right-hand side is (a1 - a0 r) d^k + dt (rates - damping y*).
+void ShapeFollowing::solve_increment(double dt) {
+  const double r = step_ratio(dt);
+  slip_theta_ *= dt;
+  slip_phi_ *= dt;
+  harmonics_.analysis(predicted_, predicted_coefficients_);
+  harmonics_.analysis(increment_, increment_coefficients_);
+  harmonics_.analysis(rates_, coefficients_);
+  for (int n = 0; n < harmonics_.degrees(); ++n)
+    for (int m = 0; m <= n; ++m)
+      for (int f = 0; f < fields(); ++f)
+        coefficients_(f, n, m) -= stiffness_[static_cast<std::size_t>(n)].damping * predicted_coefficients_(f, n, m);
+  right_side_ = (last_ - leading_ * r) * as_vector(increment_coefficients_) + dt * as_vector(coefficients_);
+  for (int n = 0; n < harmonics_.degrees(); ++n) {
+    const Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
+    for (int m = 0; m <= n; ++m)
+      for (int f = 0; f < fields(); ++f) {
+        const double inverse = 1.0 / (leading_ + (f < 3 ? z.position : z.strain) + dt * z.damping);
+        coefficients_(f, n, m) = {inverse, inverse};
+      }
+  }
+  inverse_diagonal_ = as_vector(coefficients_);
+  right_side_.array() *= inverse_diagonal_.array();
+  gmres_.solve(operator_, right_side_, gmres_tolerance, solution_);
+
+  as_vector(coefficients_) = solution_;
+  if (has_inertia_) keep_owed_impulse();
+  harmonics_.synthesis(coefficients_, theta_);
+  as_vector(coefficients_) += r * as_vector(increment_coefficients_);
+  harmonics_.synthesis(coefficients_, increment_);
+}
+
+// x + (a0 + Z)^{-1} dt w.grad x.
+void ShapeFollowing::apply_operator(const Gmres::Vector& x, Gmres::Vector& result) {
+  as_vector(coefficients_) = x;
+  harmonics_.gradient(coefficients_, theta_, phi_);
+  for (int f = 0; f < fields(); ++f) theta_.col(f) = slip_theta_ * theta_.col(f) + slip_phi_ * phi_.col(f);
+  harmonics_.analysis(theta_, coefficients_);
+  result = as_vector(coefficients_);
+  result.array() *= inverse_diagonal_.array();
+  result += x;
+}
+
+// Replaces the increment of the positions by one that ends at the right volume and area.
+void ShapeFollowing::conserve(const Surface& surface) {
+  const bool both = has_tension() && vesicle::ConservationProjection::independence(surface) > smallest_independence;
+  vectors_ = state_.leftCols<3>() + increment_.leftCols<3>() - surface.positions();
+  (both ? *volume_and_area_ : *volume_).correct_displacement(surface, vectors_);
+  increment_.leftCols<3>() = vectors_ + surface.positions() - state_.leftCols<3>();
+}
+
+// That of BDF2 is 2/9 of dt^3 d^3X/dt^3, the third difference of the path; `theta_` holds its second difference.
+void ShapeFollowing::estimate_error(double ratio) {
+  position_error_.reset();
+  if (smooth_steps_ >= 2) {
+    const double squares = (theta_.leftCols<3>() - ratio * ratio * curvature_of_path_).square().sum();
+    position_error_ = 2.0 / 9.0 * std::sqrt(squares / static_cast<double>(theta_.rows()));
+  }
+  curvature_of_path_ = theta_.leftCols<3>();
+  ++smooth_steps_;
+}
+
+// What the implicit corrections of this step, as changes of the forces, owe to the fluid's momentum.
+void ShapeFollowing::keep_owed_impulse() {
+  std::swap(impulse_, older_impulse_);
+  impulses_ = std::min(2, impulses_ + 1);
+  for (int n = 0; n < harmonics_.degrees(); ++n) {
+    const Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
+    for (int m = 0; m <= n; ++m)
+      for (int f = 0; f < fields(); ++f)
+        impulse_(f, n, m) = (f < 3 ? z.position_impulse : z.strain_impulse) * coefficients_(f, n, m);
+  }
+}
+
+// The time derivative of the fluid, Re/dt [(1+r) e^k - r^2/(1+r) e^{k-1}], of the velocities e that the corrections stand for.
+void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
+  owes_ = has_inertia_ && impulses_ > 0;
+  if (!owes_) return;
+  const double r = step_ratio(dt), rate = reynolds_number_ / dt;
+  as_vector(coefficients_) = rate * (1.0 + r) * as_vector(impulse_) - rate * r * r / (1.0 + r) * as_vector(older_impulse_);
+  harmonics_.synthesis(coefficients_, theta_);
+  owed_force_ = theta_.leftCols<3>();
+  if (!has_tension()) return;
+  divergence_ = theta_.col(3);
+  surface.projector_divergence(divergence_, vectors_);
+  owed_force_ += vectors_;
+}
+
+std::span<const double> ShapeFollowing::history() const {
+  if (!knows_state_) return {};
+  history_.assign({previous_dt_, static_cast<double>(impulses_), static_cast<double>(smooth_steps_)});
+  const auto append = [this](const double* values, Eigen::Index size) {
+    history_.insert(history_.end(), values, values + size);
+  };
+  append(state_.data() + 3 * state_.rows(), state_.size() - 3 * state_.rows());
+  append(increment_.data(), increment_.size());
+  append(curvature_of_path_.data(), curvature_of_path_.size());
+  if (has_inertia_)
+    for (const Coefficients* impulse : {&impulse_, &older_impulse_})
+      append(reinterpret_cast<const double*>(impulse->block(0, 0)),
+             Eigen::Index(impulse->fields()) * impulse->degrees() * (impulse->degrees() + 1));
+  return history_;
+}
+
+void ShapeFollowing::restore_history(double /*dt*/, std::span<const double> history) {
+  const auto strains = static_cast<std::size_t>(state_.size() - 3 * state_.rows());
+  const auto increments = static_cast<std::size_t>(increment_.size());
+  const auto impulses = has_inertia_ ? static_cast<std::size_t>(as_vector(impulse_).size()) : 0;
+  const auto markers = static_cast<std::size_t>(curvature_of_path_.size());
+  const std::size_t size = 3 + strains + increments + markers + 2 * impulses;
+  if (history.size() != size)
+    throw std::invalid_argument("shape_following: a history of " + std::to_string(history.size()) +
+                                " values, expected " + std::to_string(size));
+  restart();
+  previous_dt_ = history[0];
+  impulses_ = static_cast<int>(history[1]);
+  smooth_steps_ = static_cast<int>(history[2]);
+  const double* values = history.data() + 3;
+  const auto take = [&values](std::size_t count, double* to) {
+    std::copy_n(values, count, to);
+    values += count;
+  };
+  take(strains, state_.data() + 3 * state_.rows());
+  knows_strain_ = true;
+  take(increments, increment_.data());
+  take(markers, curvature_of_path_.data());
+  if (!has_inertia_) return;
+  take(impulses, as_vector(impulse_).data());
+  take(impulses, as_vector(older_impulse_).data());
+}
+
+void ShapeFollowing::restart() {
+  knows_state_ = knows_strain_ = false;
+  previous_dt_ = 0.0;
+  smooth_steps_ = 0;
+  impulses_ = 0;
+  owes_ = false;
+  increment_.setZero();
+  impulse_.set_zero();
+  older_impulse_.set_zero();
+  position_error_.reset();
 }
 
 }  // namespace vesiflow::coupling

@@ -1,12 +1,103 @@
 #pragma once
 
-#include <memory>
+#include <optional>
+#include <vector>
 
+#include "gmres.h"
 #include "membrane_motion.h"
+#include "membrane_response.h"
+#include "vesicle/conservation.h"
+#include "vesicle/spherical_harmonics.h"
 
 namespace vesiflow::coupling {
 
-/// time.markers = "shape_following": docs/time_integration.md.
-std::unique_ptr<MembraneMotion> make_shape_following(const Scene& scene, const vesicle::Membrane& membrane);
+/// time.markers = "shape_following": a mesh that follows the shape of the vesicle and not its material, with the area strain
+/// s = ln(dA/dA0) as a field on it. With U the fluid velocity at the membrane and V + Omega x r the rigid motion of its shape
+/// (vesicle/rigid_motion.h), the mesh moves with W and the membrane slips over it with w:
+///   dX/dt = W = (n.U) n + P (V + Omega x r),   ds/dt = div U - w.grad s,   w = U - W,   P = I - n n^T.
+/// In tank-treading the mesh then stands still and nothing at all changes: steady states do not depend on the time step.
+///
+/// A step is BDF2 in the increments d = y^{k+1} - y^k of y = (X, s), forces and velocities being taken at the extrapolated state
+/// y* = y^k + r d^k (r = dt over the last dt; a0, a1 the coefficients of BDF2), with a linearly implicit correction:
+///   (a0 + Z_n + dt w.grad) d^{k+1} = (a1 + r (Z_n + dt w.grad)) d^k + dt (W, ds/dt)*
+/// Z_n is dt times the rate at which a mode of degree n relaxes by tension and bending (MembraneResponse), overestimated on
+/// purpose: the recurrence is stable if Z is at least 3/4 of the true rate, and exact to second order for any Z, as Z only meets
+/// d^{k+1} - r d^k. So the step is limited by accuracy, not by sigma0: sigma0 may be so large that strains are negligible.
+/// Where the fluid has inertia, the momentum of the corrections is handed to it in the next steps (owed_force).
+///
+/// Area and volume are exact after each step (ConservationProjection::correct_displacement along smooth directions); s is then the
+/// Lagrange multiplier of its own equation. Near spheres, where both cannot be kept, the volume is. Degrees kept: those the fluid's
+/// grid resolves, k h < 3, and n < 2N/3; the highest are damped a little (their waves would grow on the slip).
+class ShapeFollowing final : public MembraneMotion {
+ public:
+  ShapeFollowing(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane);
+
+  bool predict(double dt, vesicle::Membrane& membrane) override;
+  void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
+               MarkerVelocities& velocities) override;
+  void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) override;
+  const vesicle::VectorField* owed_force() const override { return owes_ ? &owed_force_ : nullptr; }
+  std::optional<double> position_error() const { return position_error_; }
+
+  std::span<const double> history() const override;
+  void restore_history(double dt, std::span<const double> history) override;
+  void restart() override;
+
+  /// Degrees of the spherical harmonics that positions and strain keep.
+  static int resolved_degrees(const Scene& scene, std::size_t vesicle, double radius);
+
+ private:
+  // Columns of a state: X, and s if there is tension.
+  using State = Eigen::ArrayXXd;
+
+  bool has_tension() const { return sigma0_ > 0.0; }
+  int fields() const { return has_tension() ? 4 : 3; }
+  double step_ratio(double dt) const { return previous_dt_ > 0.0 ? dt / previous_dt_ : 0.0; }
+
+  void find_mesh_velocity(const vesicle::Surface& surface, const MarkerVelocities& velocities);
+  void find_rates(const vesicle::Surface& surface);
+  void find_stiffness(double dt, const vesicle::Surface& surface);
+  void solve_increment(double dt);
+  void conserve(const vesicle::Surface& surface);
+  void estimate_error(double ratio);
+  void keep_owed_impulse();
+  void find_owed_force(double dt, const vesicle::Surface& surface);
+  void apply_operator(const Gmres::Vector& x, Gmres::Vector& result);
+
+  double sigma0_, bending_, reynolds_number_, mean_viscosity_, radius_;
+  bool has_inertia_, keeps_volume_;
+  vesicle::SphericalHarmonics harmonics_;
+  MembraneResponse response_;
+  std::optional<vesicle::ConservationProjection> volume_and_area_, volume_;
+  Gmres gmres_{40};
+  Gmres::Operator operator_;
+
+  // The state and what its history is made of.
+  State state_, increment_;  // y^k, d^k
+  vesicle::VectorField curvature_of_path_;  // d^k - r d^{k-1} of X
+  vesicle::Coefficients impulse_, older_impulse_;  // owed by the last two steps
+  double previous_dt_ = 0.0;
+  int impulses_ = 0;
+  int smooth_steps_ = 0;  // since a start
+  bool knows_state_ = false, knows_strain_ = false;
+  long steps_ = 0;
+  std::optional<double> position_error_;
+
+  // Work space of a step.
+  struct Stiffness {
+    double position = 0.0, strain = 0.0;  // Z_n
+    double position_impulse = 0.0, strain_impulse = 0.0;
+    double damping = 0.0;
+  };
+  std::vector<Stiffness> stiffness_;
+  State predicted_, rates_, theta_, phi_;
+  double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0;  // a0, a1
+  vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, owed_force_;
+  vesicle::ScalarField strain_, divergence_, normal_velocity_, slip_theta_, slip_phi_;
+  vesicle::Coefficients velocity_coefficients_, coefficients_, increment_coefficients_, predicted_coefficients_;
+  Gmres::Vector inverse_diagonal_, right_side_, solution_;
+  bool owes_ = false;
+  mutable std::vector<double> history_;
+};
 
 }  // namespace vesiflow::coupling

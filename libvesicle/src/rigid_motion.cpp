@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
-#include <cstdlib>
 
 #include "check.h"
 
@@ -34,7 +33,7 @@ RigidMotion rigid_motion_of_shape(const Surface& surface, const ScalarField& nor
     right_side += weight * normal_velocity(k) * share;
     square_radius += weight * r.squaredNorm();
   }
-  const double damping = std::getenv("DAMP") ? std::atof(std::getenv("DAMP")) : 1e-6;
+  constexpr double damping = 1e-6;
   normal_matrix.diagonal().head<3>().array() += damping * surface.area();
   normal_matrix.diagonal().tail<3>().array() += damping * square_radius;
   const Vector6 solution = normal_matrix.selfadjointView<Eigen::Lower>().llt().solve(right_side);

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+namespace vesiflow::coupling {
+
+/// How a membrane's velocity answers to its forces within one time step, per degree n of the spherical harmonics, in the
+/// approximation of a plane sheet: a force per area on a sheet in a viscous fluid that obeys a u - mu Lap u + grad p = f (a = Re times
+/// the leading coefficient of the time derivative; 0 without inertia), spread and interpolated with a delta function of second
+/// moment m h^2, taken as a Gaussian across the sheet. With k = (n + 1/2)/R and the wavenumber q = (k, k_z):
+///   along   = 1/(2 pi) int g^2 k_z^2 / (q^2 (a + mu q^2)) dk_z        velocity per force along the sheet (its gradient part)
+///   normal  = 1/(2 pi) int g^2 k^2   / (q^2 (a + mu q^2)) dk_z        velocity per force normal to it,   g^2 = exp(-m h^2 k_z^2)
+/// (1/(4 mu k) both, for a = h = 0). Within the sheet the delta function takes another exp(-0.1 (k h)^2), as was seen by trial; the
+/// second moment of the kernels would give more, and then modes of k h of 2 to 3 were underestimated and unstable.
+///
+/// The time derivative of the fluid keeps a share of what it was given: `memory` is the ratio of that response with a squared
+/// denominator to the response itself (-d(log response)/da). Units: lengths of the scene, mu of the outer fluid.
+class MembraneResponse {
+ public:
+  struct Mode {
+    double along = 0.0, along_memory = 0.0;
+    double normal = 0.0, normal_memory = 0.0;
+  };
+
+  /// \param radius of the sphere of the membrane's area
+  MembraneResponse(int degrees, double radius, double spacing);
+
+  /// Recomputes the modes if a or mu has changed.
+  void update(double a, double mu);
+
+  const Mode& operator[](int degree) const { return modes_[static_cast<std::size_t>(degree)]; }
+  double wavenumber(int degree) const { return (degree + 0.5) / radius_; }
+
+ private:
+  double radius_, spacing_;
+  double a_ = -1.0, mu_ = 0.0;
+  std::vector<Mode> modes_;
+};
+
+}  // namespace vesiflow::coupling
