@@ -38,13 +38,8 @@ int moving_degrees(const Scene& scene, std::size_t i) {
 ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid)
     : membrane(initial_markers(scene.vesicles[number], scene.latitudes(number)), scene.latitudes(number),
                membrane_parameters(scene, number)),
-<<<<<<< HEAD
-      transfer(grid, scene.coupling.kernel),
-      motion(make_membrane_motion(scene, membrane)) {
-=======
-      transfer(grid),
+      transfer(grid, scene.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
       motion(make_membrane_motion(scene, number, membrane)) {
->>>>>>> coupling-core
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
   velocity_at_ = [this](const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity) {

@@ -43,6 +43,14 @@ class Plan {
   std::string text_;
 };
 
+std::string mirrored_axes(const Scene& scene) {
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (scene.domain.mirror[axis])
+      text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ", "xyz"[axis], scene.domain.lower[axis]);
+  return text;
+}
+
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -57,6 +65,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const double fluid_bytes = viscosity.fluid_bytes + viscosity.indicator_bytes;
   plan.head("Resolution");
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
+  if (scene.domain.mirror != std::array<bool, 3>{})
+    plan.line("planes of symmetry", "{}: the box is one side of them", mirrored_axes(scene));
   plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);

@@ -68,6 +68,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.vector("domain.upper", scene.domain.upper, Range::any());
   v.cells("domain.cells", scene.domain.cells, Range::between(8, 2048));
   v.booleans("domain.periodic", scene.domain.periodic);
+  v.booleans("domain.mirror", scene.domain.mirror);
 
   choice_of(v, "flow.type", scene.flow.type,
             {"rest", "shear", "oscillating_shear", "extension", "plane_poiseuille", "duct", "custom"});

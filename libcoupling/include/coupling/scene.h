@@ -64,6 +64,7 @@ struct Scene {
     std::array<double, 3> upper{6.0, 6.0, 6.0};
     std::array<int, 3> cells{64, 64, 64};
     std::array<bool, 3> periodic{false, false, false};  ///< along which axes the box repeats
+    std::array<bool, 3> mirror{false, false, false};    ///< axes at whose lower end is a plane of symmetry, not a wall
   } domain;
   struct Flow {
     FlowType type = FlowType::shear;
