@@ -40,12 +40,15 @@ ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const f
                membrane_parameters(scene, number)),
       transfer(grid, scene.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
       motion(make_membrane_motion(scene, number, membrane)) {
+  if (scene.coupling.thickness_correction)
+    thickness_.emplace(membrane, scene.coupling.kernel, scene.spacing(), 0.5 * (1.0 + scene.viscosity_ratio(number)));
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
   velocity_at_ = [this](const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity) {
     const PhaseTimer timer(*interpolation_seconds_);
     transfer.update(positions);
     transfer.interpolate(*fluid_velocity_, velocity);
+    if (thickness_) thickness_->add_to(membrane, velocity);
   };
 }
 
@@ -71,6 +74,10 @@ void ImmersedVesicle::advance(double dt, const fluid::FaceVector& velocity, doub
 void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {
   transfer.update(membrane.positions());
   transfer.interpolate(velocity, velocities.fluid);
+  if (thickness_) {
+    update();
+    thickness_->add_to(membrane, velocities.fluid);
+  }
   motion->mesh_velocity(dt, membrane, velocities);
 }
 

@@ -8,6 +8,7 @@
 #include "coupling/scene.h"
 #include "fluid/field.h"
 #include "membrane_motion.h"
+#include "thickness_correction.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {
@@ -41,6 +42,7 @@ struct ImmersedVesicle {
   bool is_current = false;  ///< whether geometry and forces are those of the membrane's state
 
  private:
+  std::optional<ThicknessCorrection> thickness_;
   VelocityAt velocity_at_;  // made once, so that steps do not allocate
   const fluid::FaceVector* fluid_velocity_ = nullptr;
   double* interpolation_seconds_ = nullptr;

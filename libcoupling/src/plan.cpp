@@ -180,6 +180,9 @@ void describe_step(Plan& plan, const Scene& scene) {
             "membrane.volume is not \"penalty\"");
   describe_external_forces(plan, scene);
   plan.part(true, "spread, interpolate", describe_kernel(scene.coupling.kernel), "");
+  plan.part(scene.coupling.thickness_correction, "thickness correction",
+            fmt::format("of {:.3g} h per viscosity, in low degrees", thickening(scene.coupling.kernel)),
+            "coupling.thickness_correction = false");
   describe_fluid(plan, scene);
   plan.part(moving, "wall velocity", scene.flow.type == FlowType::custom ? "of a program" : flow_of(scene).description,
             "flow.type = \"rest\"");

@@ -86,6 +86,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   choice_of(v, "fluid.pressure_solver", scene.fluid.pressure_solver, {"auto", "fft", "cholmod", "pcg"});
 
   choice_of(v, "coupling.kernel", scene.coupling.kernel, delta_kernel_names);
+  v.boolean("coupling.thickness_correction", scene.coupling.thickness_correction);
 
   v.number("membrane.capillary_number", scene.membrane.capillary_number, Range::positive());
   v.number("membrane.sigma0", scene.membrane.sigma0, Range::from(0.0));

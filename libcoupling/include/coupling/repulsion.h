@@ -26,7 +26,8 @@ struct RepelledMembrane {
 ///   2 pi d psi(d) = S (1 - d/R)^2,   as the pressure between planes is  int -psi'(r) (d/r) 2 pi r dr = 2 pi d psi(d):
 ///   psi(r) = S (1 - r/R)^2 / (2 pi r),   -psi'(r) = S (1/r^2 - 1/R^2) / (2 pi)   for r < R.
 /// The energy is  E = sum_{m < n} psi(|X_m - X_n|) dA_m dA_n + sum_m dA_m (S R/3) (1 - d_m/R)^3,  the first sum over markers of
-/// different membranes and of periodic images, the second over walls; F_m dA_m = -dE/dX_m at fixed areas. Pairs act
+/// different membranes and of periodic images (and half of it over pairs with images in mirror planes, of membranes that lie on
+/// one side of them), the second over walls; F_m dA_m = -dE/dX_m at fixed areas. Pairs act
 /// on each other along the line between them: total force and torque of all membranes vanish but for walls.
 /// Sums stand for integrals well where markers are not farther apart than the membranes: an error of about exp(-2 pi d/s) at
 /// marker spacing s.

@@ -84,6 +84,8 @@ struct Scene {
   } fluid;
   struct Coupling {
     DeltaKernel kernel = DeltaKernel::smoothed_four_point;
+    bool thickness_correction =
+        false;  ///< adds to the velocity of membranes what the width of the kernel takes from it
   } coupling;
   struct Membrane {
     double capillary_number = 2.5;
