@@ -40,6 +40,14 @@ class Plan {
   std::string text_;
 };
 
+std::string describe_time(const Scene& scene) {
+  if (!scene.time.adaptive)
+    return fmt::format("{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
+  return fmt::format("adaptive steps in [{:.3g}, {:.3g}], at first {:.6g}, to t = {:g}; position error {:.3g} per step",
+                     scene.time.smallest_step, scene.time.largest_step, scene.time.step, scene.time.end,
+                     scene.time.tolerance);
+}
+
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -50,9 +58,10 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
   plan.line("membranes", "{} of {} x {} markers, spacing about {:.2f} h at the equator of a sphere",
             scene.vesicles.size(), scene.mesh.latitudes, 2 * scene.mesh.latitudes, M_PI / scene.mesh.latitudes / h);
-  plan.line("time", "{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
-  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below 7 to 8{}", scene.tension_number(),
-            scene.tension_number() > 7.0 ? "  <- WARNING: beyond it" : "");
+  plan.line("time", "{}", describe_time(scene));
+  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below about {:.3g}{}", scene.tension_number(),
+            scene.stable_tension_number(),
+            scene.tension_number() > scene.stable_tension_number() ? "  <- WARNING: beyond it" : "");
   plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})",
             1e-6 * (fluid_bytes + vesicles * membrane_bytes(scene.mesh.latitudes)), 1e-6 * fluid_bytes,
             1e-6 * vesicles * membrane_bytes(scene.mesh.latitudes));
@@ -100,6 +109,15 @@ void describe_fluid(Plan& plan, const Scene& scene) {
             "fluid.inertia is not \"none\"");
 }
 
+std::string describe_markers(const Scene& scene) {
+  const Scene::Time& time = scene.time;
+  if (time.markers == "strain_relaxation")
+    return fmt::format("euler, strain relaxed by {:g} in a step", time.relaxation);
+  if (time.markers != "arkode") return time.markers;
+  return fmt::format("arkode, tolerance {:g}, fluid velocity {} within a step", time.absolute_tolerance,
+                     time.fluid_velocity == FluidVelocity::frozen ? "frozen" : "interpolated");
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.membrane.sigma0 > 0.0;
   const bool shear = scene.flow.type == FlowType::shear;
@@ -115,6 +133,9 @@ void describe_step(Plan& plan, const Scene& scene) {
                   scene.membrane.tension_form == vesicle::TensionForm::divergence ? "divergence" : "non-divergence",
                   scene.membrane.sigma0),
       "membrane.sigma0 = 0");
+  plan.part(tension && scene.membrane.integral_rate > 0.0, "integral tension",
+            fmt::format("rate {:g}, degrees below {}", scene.membrane.integral_rate, scene.membrane.integral_degrees),
+            tension ? "membrane.integral_rate = 0" : "membrane.sigma0 = 0");
   plan.part(scene.membrane.area == vesicle::AreaControl::penalty, "area penalty",
             fmt::format("force with c_a = {:g}", scene.membrane.area_stiffness), "membrane.area is not \"penalty\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
@@ -135,10 +156,10 @@ void describe_step(Plan& plan, const Scene& scene) {
                         scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
             "mesh.redistribute = \"never\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
-            "exact, of the marker velocity", "membrane.volume is not \"projection\"");
-  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection", "exact, of the marker velocity",
-            "membrane.area is not \"projection\"");
-  plan.part(true, "markers", scene.time.markers, "");
+            "exact, of the marker velocity and its step", "membrane.volume is not \"projection\"");
+  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection",
+            "exact, of the marker velocity and its step", "membrane.area is not \"projection\"");
+  plan.part(true, "markers", describe_markers(scene), "");
   plan.part(tension, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"

@@ -151,6 +151,13 @@ class Reader final : public KeyVisitor {
     if (const toml::node* node = find(key)) value = checked_integer(key, *node, *node, range);
   }
 
+  void flag(std::string_view key, bool& value) override {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_boolean()) refuse(key, *node, "must be true or false");
+    value = node->as_boolean()->get();
+  }
+
   void vector(std::string_view key, std::array<double, 3>& value, const Range& range) override {
     if (const toml::node* node = find(key)) value = checked_vector(key, *node, range);
   }

@@ -42,6 +42,7 @@ class KeyVisitor {
   virtual void optional_number(std::string_view key, std::optional<double>& value, const Range& range) = 0;
   virtual void integer(std::string_view key, int& value, const Range& range) = 0;
   virtual void optional_integer(std::string_view key, std::optional<int>& value, const Range& range) = 0;
+  virtual void flag(std::string_view key, bool& value) = 0;
   virtual void vector(std::string_view key, std::array<double, 3>& value, const Range& range) = 0;
   virtual void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
                                const Range& range) = 0;

@@ -53,6 +53,7 @@ class Lister : public KeyVisitor {
   void optional_integer(std::string_view key, std::optional<int>& value, const Range& range) override {
     show(key, value ? fmt::format("{}", *value) : "", range.describe());
   }
+  void flag(std::string_view key, bool& value) override { show(key, value ? "true" : "false", "true, false"); }
   void vector(std::string_view key, std::array<double, 3>& value, const Range& range) override {
     show(key, array_of(value), range.describe());
   }

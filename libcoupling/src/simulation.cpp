@@ -9,6 +9,7 @@
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
 #include "phase_timer.h"
+#include "step_control.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -24,10 +25,10 @@ const Scene& checked(const Scene& scene) {
 
 std::string blow_up_advice(const Scene& scene) {
   return fmt::format(
-      "the explicit tension is unstable above g = dt sigma0/(4 mu h) of 7 to 8, and this scene has g = {:.3g}: reduce "
+      "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: reduce "
       "time.step or membrane.sigma0; if g is well below that, the mesh is too coarse for the shape (more "
       "mesh.latitudes) or the vesicle too deflated",
-      scene.tension_number());
+      scene.stable_tension_number(), scene.tension_number());
 }
 
 }  // namespace
@@ -84,23 +85,31 @@ Simulation::Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, 
   if (scene_.mesh.redistribute == Redistribute::when_needed)
     redistribution_.emplace(scene_.mesh.latitudes, moving_degrees(scene_));
   last_redistributions_.reserve(vesicles_.size());
-  for (auto& v : vesicles_) v->interpolate(scene_.time.step, fluid_.velocity());
+  if (scene_.time.adaptive) step_control_ = std::make_unique<StepControl>(scene_);
+  for (auto& v : vesicles_) v->interpolate(time_step(), fluid_.velocity());
 }
 
 Simulation::~Simulation() = default;
 
 void Simulation::step() {
   try {
-    compute_forces();  // Steps 1 and 2: coefficients, geometry, forces, spreading
-    advance_fluid();   // Step 3: Navier-Stokes
-    move_markers();    // Steps 4 and 5: interpolation, mesh control, markers, target areas
+    if (step_control_)
+      take_adaptive_step();
+    else
+      take_step(scene_.time.step);
     redistribute_markers();
   } catch (const std::domain_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
   }
 }
 
-void Simulation::compute_forces() {
+void Simulation::take_step(double dt) {
+  compute_forces(dt);  // Steps 1 and 2: coefficients, geometry, forces, spreading
+  advance_fluid(dt);   // Step 3: Navier-Stokes
+  move_markers(dt);    // Steps 4 and 5: interpolation, mesh control, markers, target areas
+}
+
+void Simulation::compute_forces(double dt) {
   {
     const PhaseTimer timer(seconds_.spread);
     for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
@@ -109,7 +118,7 @@ void Simulation::compute_forces() {
     ImmersedVesicle& v = *vesicles_[i];
     {
       const PhaseTimer timer(seconds_.membrane);
-      v.predict(scene_.time.step);
+      v.predict(dt);
       check_limits(i);
     }
     const PhaseTimer timer(seconds_.spread);
@@ -118,18 +127,18 @@ void Simulation::compute_forces() {
   }
 }
 
-void Simulation::advance_fluid() {
+void Simulation::advance_fluid(double dt) {
   try {
-    fluid_.step(scene_.time.step);
+    fluid_.step(dt);
   } catch (const std::runtime_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
   }
 }
 
-void Simulation::move_markers() {
+void Simulation::move_markers(double dt) {
   for (auto& v : vesicles_) {
     const PhaseTimer timer(seconds_.mesh);
-    v->advance(scene_.time.step, fluid_.velocity(), seconds_.interpolate);
+    v->advance(dt, fluid_.previous_velocity(), fluid_.velocity(), seconds_.interpolate);
   }
 }
 
@@ -149,7 +158,7 @@ void Simulation::redistribute_markers() {
     if (!report.moved) continue;
     v.motion->restart();
     v.is_current = false;
-    v.interpolate(scene_.time.step, fluid_.velocity());
+    v.interpolate(time_step(), fluid_.velocity());
     ++v.redistributions;
     last_redistributions_.push_back({i, report});
   }
@@ -195,6 +204,20 @@ const vesicle::VectorField& Simulation::marker_velocity(std::size_t i) const {
   return vesicles_.at(i)->velocities.fluid;
 }
 
+MarkerStatistics Simulation::marker_statistics(std::size_t i) const {
+  return vesicles_.at(i)->motion->statistics();
+}
+
+bool Simulation::finished() const {
+  if (!step_control_) return steps() >= scene_.steps();
+  constexpr double round_off = 1e-12;
+  return time() >= scene_.time.end * (1.0 - round_off);
+}
+
+double Simulation::time_step() const {
+  return step_control_ && steps() > 0 ? fluid_.clock().time_step : scene_.time.step;
+}
+
 PhaseSeconds Simulation::phase_seconds() const {
   PhaseSeconds all = seconds_;
   all.mesh -= all.interpolate;  // interpolation is asked for inside the move
@@ -206,11 +229,12 @@ PhaseSeconds Simulation::phase_seconds() const {
 
 SimulationState Simulation::state() const {
   SimulationState state{
-      fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}};
+      fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}, {}};
   for (const auto& v : vesicles_) {
     const auto history = v->motion->history();
     state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
   }
+  if (step_control_) state.step_control = step_control_->state();
   return state;
 }
 
@@ -223,13 +247,11 @@ void Simulation::restore(const SimulationState& state) {
     ImmersedVesicle& v = *vesicles_[i];
     v.membrane.restore(state.vesicles[i].membrane);
     v.is_current = false;
-    if (!state.vesicles[i].motion_history.empty())
-      v.motion->restore_history(scene_.time.step, state.vesicles[i].motion_history);
-    else
-      v.motion->restart();
+    v.restore_history(fluid_.clock().time_step, state.vesicles[i].motion_history);
     v.redistributions = state.vesicles[i].redistributions;
-    v.interpolate(scene_.time.step, fluid_.velocity());
+    v.interpolate(time_step(), fluid_.velocity());
   }
+  if (step_control_) step_control_->restore(state.step_control);
   last_redistributions_.clear();
 }
 

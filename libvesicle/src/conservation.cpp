@@ -13,6 +13,8 @@
 namespace vesiflow::vesicle {
 namespace {
 
+constexpr int smooth_degrees = 10;
+
 void check_target(const std::optional<double>& target, const char* name) {
   if (target) check_argument(std::isfinite(*target) && *target > 0, name, *target, "finite and > 0");
 }
@@ -23,22 +25,30 @@ ConservationProjection::ConservationProjection(const SphereGrid& grid, const Con
     : grid_(grid), conserved_(conserved) {
   check_target(conserved.volume, "target volume");
   check_target(conserved.area, "target area");
+  if (conserved.area) smoothing_.emplace(std::min(smooth_degrees, grid.latitudes()), grid, 1);
 }
 
-/// int g_i g_j dA of the functions g = (1, 2 H).
-Eigen::Matrix2d ConservationProjection::gram(const Surface& surface) const {
+/// F[2 H] of the surface before the move; nothing if the area is free.
+void ConservationProjection::smooth_curvature(const Surface& surface) {
+  if (!smoothing_) return;
+  curvature_ = 2 * surface.mean_curvature();
+  smoothing_->analysis(curvature_, coefficients_);
+  smoothing_->synthesis(coefficients_, curvature_);
+}
+
+/// What the directions n and F[2 H] n (columns) do to volume and area (rows).
+Eigen::Matrix2d ConservationProjection::rates(const Surface& surface) const {
   const ScalarField& h = surface.mean_curvature();
-  const double mixed = 2 * (h * surface.area_weight()).sum();
-  const double square = 4 * (h.square() * surface.area_weight()).sum();
   Eigen::Matrix2d matrix;
-  matrix << surface.area(), mixed, mixed, square;
+  matrix << surface.area(), (curvature_ * surface.area_weight()).sum(), 2 * (h * surface.area_weight()).sum(),
+      2 * (h * curvature_ * surface.area_weight()).sum();
   return matrix;
 }
 
-/// The a and b for which (a + 2 H b) n adds `missing` to the rates of volume and area.
+/// The a and b for which (a + F[2 H] b) n adds `missing` to the rates of volume and area.
 Eigen::Vector2d ConservationProjection::multipliers(const Surface& surface, const Eigen::Vector2d& missing) const {
   if (!conserved_.area) return {conserved_.volume ? missing[0] / surface.area() : 0, 0};
-  const Eigen::Matrix2d matrix = gram(surface);
+  const Eigen::Matrix2d matrix = rates(surface);
   if (!conserved_.volume) return {0, missing[1] / matrix(1, 1)};
   constexpr double independent = 1e-10;
   if (!(matrix.determinant() > independent * matrix(0, 0) * matrix(1, 1)))
@@ -52,8 +62,7 @@ void ConservationProjection::add(const Surface& surface, const Eigen::Vector2d& 
                                  VectorField& motion) const {
   for (int component = 0; component < 3; ++component) {
     motion.col(component) += multipliers[0] * surface.normal().col(component);
-    if (multipliers[1] != 0)
-      motion.col(component) += 2 * multipliers[1] * surface.mean_curvature() * surface.normal().col(component);
+    if (multipliers[1] != 0) motion.col(component) += multipliers[1] * curvature_ * surface.normal().col(component);
   }
 }
 
@@ -61,6 +70,7 @@ void ConservationProjection::correct_velocity(const Surface& surface, double dt,
   check_argument(std::isfinite(dt) && dt > 0, "dt", dt, "finite and > 0");
   check_markers(velocity, "velocity", surface.grid().size());
   check_finite(velocity, "a velocity");
+  smooth_curvature(surface);
   Eigen::Vector2d missing = Eigen::Vector2d::Zero();
   if (conserved_.volume) missing[0] = (*conserved_.volume - surface.volume()) / dt - surface.flux(velocity);
   if (conserved_.area) missing[1] = (*conserved_.area - surface.area()) / dt - area_rate(surface, velocity);
@@ -73,6 +83,7 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
   check_markers(displacement, "displacement", surface.grid().size());
   if (!conserved_.volume && !conserved_.area) return;
   if (!moved_) moved_.emplace(grid_);
+  smooth_curvature(surface);
   // The matrix is that of the surface before the move: the error falls by a factor of the size of D in each iteration.
   constexpr int max_iterations = 50;
   constexpr double tolerance = 1e-13;
