@@ -28,7 +28,8 @@ void MembraneResponse::update(double a, double mu) {
       const double angle = (i + 0.5) * std::numbers::pi / (2 * points);
       const double kz = k * std::tan(angle), qq = k * k + kz * kz;
       const double across = kz * spacing_;
-      const double weight = std::exp(-second_moment * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
+      const double weight =
+          std::exp(-second_moment * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
       const double inverse = 1.0 / (a + mu * qq);
       mode.along += weight * kz * kz * inverse;
       mode.normal += weight * k * k * inverse;

@@ -26,9 +26,9 @@ double env(const char* name, double value) {
 
 class ShapeFollowing final : public MembraneMotion {
  public:
-  ShapeFollowing(const Scene& scene, const vesicle::Membrane& membrane)
+  ShapeFollowing(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane)
       : scene_(scene),
-        degrees_(int(env("DEG", vesicle::two_thirds_degrees(scene.mesh.latitudes)))),
+        degrees_(int(env("DEG", vesicle::two_thirds_degrees(scene.latitudes(vesicle))))),
         harmonics_(degrees_, membrane.surface().grid(), 4),
         positions_(membrane.positions()),
         strain_(ScalarField::Zero(positions_.rows())),
@@ -107,9 +107,11 @@ class ShapeFollowing final : public MembraneMotion {
     }
     work_.set_zero();
     for (int n = 0; n < degrees_; ++n) {
-      const double bending = bending_stiffness(n, dt, a0) + dt * damping(n), tension = tension_stiffness(n, dt, a0) + dt * damping(n);
+      const double bending = bending_stiffness(n, dt, a0) + dt * damping(n),
+                   tension = tension_stiffness(n, dt, a0) + dt * damping(n);
       for (int m = 0; m <= n; ++m)
-        for (int f = 0; f < 4; ++f) work_(f, n, m) = {1 / (a0 + (f < 3 ? bending : tension)), 1 / (a0 + (f < 3 ? bending : tension))};
+        for (int f = 0; f < 4; ++f)
+          work_(f, n, m) = {1 / (a0 + (f < 3 ? bending : tension)), 1 / (a0 + (f < 3 ? bending : tension))};
     }
     scale_ = as_vector(work_);
     positions_and_strain_.resize(positions_.rows(), 4);
@@ -128,7 +130,8 @@ class ShapeFollowing final : public MembraneMotion {
       y = x + as_vector(work_).cwiseProduct(scale_);
     };
     const auto report = gmres_.solve(apply, right_, env("TOL", 1e-4), solution_);
-    if (env("VERB", 0) > 0) std::fprintf(stderr, "gmres %d %.1e |eta| %.2e\n", report.iterations, report.residual, solution_.norm());
+    if (env("VERB", 0) > 0)
+      std::fprintf(stderr, "gmres %d %.1e |eta| %.2e\n", report.iterations, report.residual, solution_.norm());
     // impulses owed
     work_ = step_coefficients_;
     as_vector(step_coefficients_) = r * as_vector(step_coefficients_) + solution_;
@@ -138,8 +141,11 @@ class ShapeFollowing final : public MembraneMotion {
       for (int m = 0; m <= n; ++m)
         for (int f = 0; f < 4; ++f) {
           const auto change = step_coefficients_(f, n, m) - r * work_(f, n, m);
-          owed_coefficients_(f, n, m) = f < 3 ? -env("CB", 1.5) * normal_force(n) * responses_[n].normal2 / responses_[n].normal * change
-                                              : (n == 0 ? env("C0", 1.5) * responses_[2].normal2 / responses_[2].normal : env("CG", 1.5) * responses_[n].along2 / responses_[n].along) * scene_.membrane.sigma0 * change;
+          owed_coefficients_(f, n, m) =
+              f < 3 ? -env("CB", 1.5) * normal_force(n) * responses_[n].normal2 / responses_[n].normal * change
+                    : (n == 0 ? env("C0", 1.5) * responses_[2].normal2 / responses_[2].normal
+                              : env("CG", 1.5) * responses_[n].along2 / responses_[n].along) *
+                          scene_.membrane.sigma0 * change;
         }
     harmonics_.synthesis(step_coefficients_, steps_);
     position_step_ = steps_.leftCols<3>();
@@ -154,7 +160,8 @@ class ShapeFollowing final : public MembraneMotion {
         for (int m = 0; m <= n; ++m)
           for (int f = 0; f < 3; ++f) {
             const auto& q = responses_[std::max(n, 2)];
-            owed_coefficients_(f, n, m) += env("OC", 1) * a0 / dt * q.normal2 / (q.normal * q.normal) * velocity_coefficients_(f, n, m);
+            owed_coefficients_(f, n, m) +=
+                env("OC", 1) * a0 / dt * q.normal2 / (q.normal * q.normal) * velocity_coefficients_(f, n, m);
           }
     }
     gradient_ += surface.positions();
@@ -180,7 +187,9 @@ class ShapeFollowing final : public MembraneMotion {
   const VectorField* owed_force() const override { return has_owed_ ? &owed_ : nullptr; }
 
  private:
-  static Eigen::Index size_of(const Coefficients& c) { return Eigen::Index(2) * c.fields() * c.degrees() * (c.degrees() + 1) / 2; }
+  static Eigen::Index size_of(const Coefficients& c) {
+    return Eigen::Index(2) * c.fields() * c.degrees() * (c.degrees() + 1) / 2;
+  }
   static Eigen::Map<Eigen::VectorXd> as_vector(Coefficients& c) {
     return {reinterpret_cast<double*>(c.block(0, 0)), size_of(c)};
   }
@@ -202,10 +211,13 @@ class ShapeFollowing final : public MembraneMotion {
   }
 
   // Responses of a plane membrane, a sheet smeared by the delta function, per degree.
-  struct Response { double along = 0, along2 = 0, normal = 0, normal2 = 0; };
+  struct Response {
+    double along = 0, along2 = 0, normal = 0, normal2 = 0;
+  };
   void find_responses(double dt, double a0) {
     if (dt == response_dt_ && a0 == response_a0_) return;
-    response_dt_ = dt; response_a0_ = a0;
+    response_dt_ = dt;
+    response_a0_ = a0;
     const double mu = 0.5 * (1 + scene_.fluid.viscosity_ratio);
     const double a = scene_.fluid.inertia == fluid::Inertia::none ? 0 : scene_.fluid.reynolds_number * a0 / dt;
     const double h = scene_.spacing() * env("KER", 1);
@@ -216,20 +228,27 @@ class ShapeFollowing final : public MembraneMotion {
       // kz = k tan(t)
       const int points = 400;
       for (int i = 0; i < points; ++i) {
-        const double t = (i + 0.5) * M_PI / 2 / points, kz = k * std::tan(t), w = M_PI / 2 / points * k / std::pow(std::cos(t), 2) / M_PI;
+        const double t = (i + 0.5) * M_PI / 2 / points, kz = k * std::tan(t),
+                     w = M_PI / 2 / points * k / std::pow(std::cos(t), 2) / M_PI;
         const double kk = k * k + kz * kz, d = a + mu * kk, phi = std::exp(-0.3818 * kz * kz * h * h);
-        r.along += w * phi * kz * kz / (kk * d); r.along2 += w * phi * kz * kz / (kk * d * d);
-        r.normal += w * phi * k * k / (kk * d); r.normal2 += w * phi * k * k / (kk * d * d);
+        r.along += w * phi * kz * kz / (kk * d);
+        r.along2 += w * phi * kz * kz / (kk * d * d);
+        r.normal += w * phi * k * k / (kk * d);
+        r.normal2 += w * phi * k * k / (kk * d * d);
       }
       const double in_plane = std::max(std::exp(-env("INP", 0.19) * k * k * h * h), env("FLOOR", 0.1));
-      r.along *= in_plane; r.normal *= in_plane; r.along2 *= in_plane; r.normal2 *= in_plane;
+      r.along *= in_plane;
+      r.normal *= in_plane;
+      r.along2 *= in_plane;
+      r.normal2 *= in_plane;
       responses_[n] = r;
     }
   }
   double tension_stiffness(int n, double dt, double a0) {
     find_responses(dt, a0);
     const double k = (n + 0.5) / radius_;
-    if (n == 0 && env("N0", 1) > 0) return env("C0", 1.5) * dt * scene_.membrane.sigma0 * curvature_variance_ * responses_[2].normal;
+    if (n == 0 && env("N0", 1) > 0)
+      return env("C0", 1.5) * dt * scene_.membrane.sigma0 * curvature_variance_ * responses_[2].normal;
     return env("CG", 1.5) * dt * scene_.membrane.sigma0 * k * k * responses_[n].along;
   }
   double damping(int n) const { return env("GAM", 0) * std::pow(n / (degrees_ - 1.0), env("POW", 8)); }
@@ -271,8 +290,9 @@ class ShapeFollowing final : public MembraneMotion {
 
 }  // namespace
 
-std::unique_ptr<MembraneMotion> make_shape_following(const Scene& scene, const vesicle::Membrane& membrane) {
-  return std::make_unique<ShapeFollowing>(scene, membrane);
+std::unique_ptr<MembraneMotion> make_shape_following(const Scene& scene, std::size_t vesicle,
+                                                     const vesicle::Membrane& membrane) {
+  return std::make_unique<ShapeFollowing>(scene, vesicle, membrane);
 }
 
 }  // namespace vesiflow::coupling
