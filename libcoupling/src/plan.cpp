@@ -43,6 +43,21 @@ class Plan {
   std::string text_;
 };
 
+std::string describe_time(const Scene& scene) {
+  if (!scene.time.adaptive)
+    return fmt::format("{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
+  return fmt::format("adaptive steps in [{:.3g}, {:.3g}], at first {:.6g}, to t = {:g}; position error {:.3g} per step",
+                     scene.time.smallest_step, scene.time.largest_step, scene.time.step, scene.time.end,
+                     scene.time.tolerance);
+}
+
+std::string describe_stability(const Scene& scene) {
+  const double limit = scene.stable_tension_number();
+  if (!std::isfinite(limit)) return "no limit to it with these markers";
+  return fmt::format("stable below about {:.3g}{}", limit,
+                     scene.tension_number() > limit ? "  <- WARNING: beyond it" : "");
+}
+
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -60,9 +75,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
-  plan.line("time", "{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
-  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below 7 to 8{}", scene.tension_number(),
-            scene.tension_number() > 7.0 ? "  <- WARNING: beyond it" : "");
+  plan.line("time", "{}", describe_time(scene));
+  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); {}", scene.tension_number(), describe_stability(scene));
   plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})", 1e-6 * (fluid_bytes + membranes),
             1e-6 * fluid_bytes, 1e-6 * membranes);
   plan.line("threads", "{}", threads);
@@ -140,6 +154,15 @@ void describe_external_forces(Plan& plan, const Scene& scene) {
             "repulsion.range = 0");
 }
 
+std::string describe_markers(const Scene& scene) {
+  const Scene::Time& time = scene.time;
+  if (time.markers == "strain_relaxation")
+    return fmt::format("euler, strain relaxed by {:g} in a step", time.relaxation);
+  if (time.markers != "arkode") return time.markers;
+  return fmt::format("arkode, tolerance {:g}, fluid velocity {} within a step", time.absolute_tolerance,
+                     time.fluid_velocity == FluidVelocity::frozen ? "frozen" : "interpolated");
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.tension_number() > 0.0;
   const bool moving = scene.flow.type != FlowType::rest;
@@ -155,6 +178,9 @@ void describe_step(Plan& plan, const Scene& scene) {
                   scene.membrane.tension_form == vesicle::TensionForm::divergence ? "divergence" : "non-divergence",
                   scene.membrane.sigma0),
       "membrane.sigma0 = 0");
+  plan.part(tension && scene.membrane.integral_rate > 0.0, "integral tension",
+            fmt::format("rate {:g}, degrees below {}", scene.membrane.integral_rate, scene.membrane.integral_degrees),
+            tension ? "membrane.integral_rate = 0" : "membrane.sigma0 = 0");
   plan.part(scene.membrane.area == vesicle::AreaControl::penalty, "area penalty",
             fmt::format("force with c_a = {:g}", scene.membrane.area_stiffness), "membrane.area is not \"penalty\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
@@ -182,10 +208,10 @@ void describe_step(Plan& plan, const Scene& scene) {
                         scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
             "mesh.redistribute = \"never\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
-            "exact, of the marker velocity", "membrane.volume is not \"projection\"");
-  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection", "exact, of the marker velocity",
-            "membrane.area is not \"projection\"");
-  plan.part(true, "markers", scene.time.markers, "");
+            "exact, of the marker velocity and its step", "membrane.volume is not \"projection\"");
+  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection",
+            "exact, of the marker velocity and its step", "membrane.area is not \"projection\"");
+  plan.part(true, "markers", describe_markers(scene), "");
   plan.part(tension, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"

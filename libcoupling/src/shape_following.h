@@ -39,7 +39,9 @@ class ShapeFollowing final : public MembraneMotion {
                MarkerVelocities& velocities) override;
   void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) override;
   const vesicle::VectorField* owed_force() const override { return owes_ ? &owed_force_ : nullptr; }
-  std::optional<double> position_error() const { return position_error_; }
+  std::optional<double> position_error() const override { return position_error_; }
+
+  MarkerStatistics statistics() const override { return {steps_, 0, steps_}; }
 
   std::span<const double> history() const override;
   void restore_history(double dt, std::span<const double> history) override;

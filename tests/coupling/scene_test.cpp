@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "coupling/errors.h"
+#include "coupling/marker_integrator.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -195,6 +196,19 @@ TEST(Scene, VesiclesOverlapThroughPeriodicSidesToo) {
                           "cells = [12, 64, 64]\n" +
                           sphere),
                {"vesicles.0 and vesicles.0 (repeated", "enlarge the box"});
+}
+
+TEST(Scene, RefusesTimeKeysThatDoNotGoTogether) {
+  expect_parts(message_of(sphere, {"time.fluid_velocity=interpolated"}), {"time.fluid_velocity", "arkode"});
+  expect_parts(message_of(sphere, {"time.markers=strain_relaxation", "membrane.sigma0=0"}), {"membrane.sigma0 > 0"});
+  expect_parts(message_of(sphere, {"time.markers=strain_relaxation", "time.relaxation=0.0"}), {"in (0, 1]"});
+  expect_parts(message_of(sphere, {"time.adaptive=yes"}), {"time.adaptive", "true or false"});
+  // Relaxation allows for (2 - a)/a times the tension number.
+  expect_parts(message_of(sphere, {"time.step=1/64"}), {"accepted"});
+  expect_parts(message_of(sphere, {"time.step=1/24"}), {"time.step = 0.041", "(7)"});
+  expect_parts(message_of(sphere, {"time.step=1/24", "time.markers=strain_relaxation"}), {"accepted"});
+  if (!have_sundials())
+    expect_parts(message_of(sphere, {"time.markers=arkode"}), {"time.markers", "VESIFLOW_WITH_SUNDIALS"});
 }
 
 TEST(Scene, RefusesFilesThatCannotBeReadOrAreNotToml) {

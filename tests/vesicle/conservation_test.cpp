@@ -84,7 +84,7 @@ TEST_F(Conservation, CorrectedDisplacementIsExact) {
   }
 }
 
-/// The correction is along span{n, 2 H n} and so leaves tangential motions alone.
+/// The correction is along the normal and so leaves tangential motions alone.
 TEST_F(Conservation, CorrectionIsAlongTheNormal) {
   VectorField corrected = motion;
   ConservationProjection(surface.grid(), {surface.volume(), surface.area()}).correct_velocity(surface, 0.1, corrected);
@@ -93,6 +93,29 @@ TEST_F(Conservation, CorrectionIsAlongTheNormal) {
   EXPECT_GT(normal.abs().maxCoeff(), 1e-4);
   for (int component = 0; component < 3; ++component)
     EXPECT_LT((change.col(component) - normal * surface.normal().col(component)).abs().maxCoeff(), 1e-15);
+}
+
+/// Noise of the markers must not be fed back: the correction holds the degrees of the shape below 10, and those of its normal.
+TEST_F(Conservation, CorrectionDoesNotAmplifyNoise) {
+  VectorField noisy = surface.positions();
+  const SphereGrid& grid = surface.grid();
+  Coefficients coefficients(latitudes, 1);
+  coefficients.set_zero();
+  coefficients(0, 20, 7) = 1e-4;
+  ScalarField noise(grid.size());
+  SphericalHarmonics(latitudes, grid).synthesis(coefficients, noise);
+  for (int component = 0; component < 3; ++component) noisy.col(component) += noise * surface.normal().col(component);
+  const auto correction = [&](const VectorField& positions) {
+    surface.update(positions);
+    VectorField displacement = VectorField::Zero(grid.size(), 3);
+    ConservationProjection(grid, {surface.volume(), 1.001 * surface.area()})
+        .correct_displacement(surface, displacement);
+    return ScalarField((displacement * surface.normal()).rowwise().sum());
+  };
+  const VectorField smooth = surface.positions();
+  const ScalarField change = correction(noisy) - correction(smooth);
+  // H of the noise is 20^2/2 times the noise; a correction along it would hold that times b of about 1e-3.
+  EXPECT_LT(change.abs().maxCoeff(), 0.02 * noise.abs().maxCoeff());
 }
 
 TEST_F(Conservation, SayWhyASphereCannotKeepBoth) {

@@ -91,19 +91,23 @@ TEST(Membrane, TargetAreasRestWithoutTension) {
 }
 
 TEST(Membrane, RestartRepeatsTheRunBitForBit) {
-  Membrane straight(start(), latitudes, {});
-  for (int k = 0; k < 3; ++k) step(straight);
-  const MembraneState state = straight.state();
-  Membrane resumed(start(), latitudes, {});
-  resumed.restore(state);
-  for (int k = 0; k < 3; ++k) {
-    step(straight);
-    step(resumed);
+  const MembraneParameters remembering{.strain_relaxation = 0.25, .integral_tension = {.rate = 2}};
+  for (const MembraneParameters& parameters : {MembraneParameters{}, remembering}) {
+    Membrane straight(start(), latitudes, parameters);
+    for (int k = 0; k < 3; ++k) step(straight);
+    const MembraneState state = straight.state();
+    Membrane resumed(start(), latitudes, parameters);
+    resumed.restore(state);
+    for (int k = 0; k < 3; ++k) {
+      step(straight);
+      step(resumed);
+    }
+    EXPECT_TRUE((straight.positions() == resumed.positions()).all());
+    EXPECT_TRUE((straight.target_areas() == resumed.target_areas()).all());
+    EXPECT_TRUE((straight.force() == resumed.force()).all());
+    EXPECT_TRUE((straight.tension() == resumed.tension()).all());
+    EXPECT_EQ(straight.initial_area(), resumed.initial_area());
   }
-  EXPECT_TRUE((straight.positions() == resumed.positions()).all());
-  EXPECT_TRUE((straight.target_areas() == resumed.target_areas()).all());
-  EXPECT_TRUE((straight.force() == resumed.force()).all());
-  EXPECT_EQ(straight.initial_area(), resumed.initial_area());
 }
 
 TEST(Membrane, RefusesBadArguments) {
