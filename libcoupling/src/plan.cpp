@@ -196,27 +196,32 @@ void describe_step(Plan& plan, const Scene& scene) {
     plan.part(driving != 0.0, "driving force", fmt::format("uniform, {:.4g} along x", driving),
               "walls drive the flow, or nothing does");
   }
-  plan.part(true, "mesh control",
+  const bool follows = scene.time.markers == "shape_following";
+  plan.part(!follows, "mesh control",
             fmt::format("{}: normal velocity {} degrees, tangential {}",
                         scene.mesh.filter == vesicle::FilterOrder::velocity_first
                             ? "velocity filtered, then split"
                             : "normal and tangential parts filtered apart",
                         normal, scene.mesh.tangential_degrees),
-            "");
+            "time.markers = \"shape_following\": the mesh follows the shape");
   plan.part(scene.mesh.redistribute == Redistribute::when_needed, "redistribution",
             fmt::format("along the membrane, when its aspect ratio is above {:g} or the spectrum's tail above {:g}",
                         scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
             "mesh.redistribute = \"never\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
             "exact, of the marker velocity and its step", "membrane.volume is not \"projection\"");
-  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection",
-            "exact, of the marker velocity and its step", "membrane.area is not \"projection\"");
+  plan.part((follows && tension) || scene.membrane.area == vesicle::AreaControl::projection, "area projection",
+            follows ? "exact, of each step, but for spheres" : "exact, of the marker velocity and its step",
+            "membrane.area is not \"projection\"");
   plan.part(true, "markers", describe_markers(scene), "");
-  plan.part(tension, "target areas",
+  plan.part(follows && tension, "strain field",
+            "implicit in tension and bending, momentum of its corrections owed to the fluid",
+            follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
+  plan.part(tension && !follows, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"
                 : "Eqs. (32), (33), slip against the interpolated velocity (paper)",
-            "membrane.sigma0 = 0");
+            follows ? "time.markers = \"shape_following\"" : "membrane.sigma0 = 0");
 }
 
 void describe_output(Plan& plan, const Scene& scene) {

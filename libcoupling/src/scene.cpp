@@ -116,6 +116,11 @@ void check_degrees(const Scene& scene, std::size_t i, const std::string& name) {
 }
 
 void check_tension(const Scene& scene, const std::string& name) {
+  if (scene.time.markers == "shape_following" && scene.membrane.integral_rate > 0.0)
+    throw SceneError(fmt::format(
+        "{}: membrane.integral_rate = {:g}: time.markers = \"shape_following\" keeps the area without it; set "
+        "it to 0, or take another way to move the markers",
+        name, scene.membrane.integral_rate));
   if (!scene.membrane.g) return;
   const double meant = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
   if (std::abs(meant - scene.membrane.sigma0) > 5e-3 * meant)

@@ -48,6 +48,7 @@ void visit_preset(Scene& scene, KeyVisitor& v) {
 
 void apply_preset(Scene& scene) {
   if (scene.method.preset != Preset::paper) return;
+  scene.time.markers = "euler";
   scene.fluid.viscous_treatment = fluid::ViscousTreatment::explicit_;
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;

@@ -119,7 +119,7 @@ struct Scene {
   struct Time {
     double step = 1.0 / 192.0;
     double end = 8.0;
-    std::string markers = "euler";
+    std::string markers = "shape_following";
     double relative_tolerance = 0.0;  ///< of markers = arkode
     double absolute_tolerance = 1e-6;
     FluidVelocity fluid_velocity = FluidVelocity::frozen;
