@@ -15,7 +15,8 @@ ExternalForces::ExternalForces(const Scene& scene, const fluid::Grid& grid,
     weights_.clear();
 
   const auto& periodic = scene.domain.periodic;
-  const bool has_images = periodic[0] || periodic[1] || periodic[2];
+  const auto& mirror = scene.domain.mirror;
+  const bool has_images = periodic[0] || periodic[1] || periodic[2] || mirror[0] || mirror[1] || mirror[2];
   const bool can_meet = vesicles_.size() > 1 || has_images || scene.repulsion.walls;
   if (scene.repulsion.range > 0.0 && can_meet) {
     Eigen::Index largest = 0;

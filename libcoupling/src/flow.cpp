@@ -15,10 +15,13 @@ using fluid::Vector3;
 
 constexpr std::array<bool, 3> along_all{true, true, true}, along_x_and_y{true, true, false},
     along_x{true, false, false};
+constexpr std::array<bool, 3> about_all{true, true, true}, about_y{false, true, false},
+    about_y_and_z{false, true, true};
 
 Flow rest() {
   return {.velocity = [](const Vector3&, double) { return Vector3{}; },
           .may_be_periodic = along_all,
+          .may_be_mirrored = about_all,
           .description = "none: the walls are at rest"};
 }
 
@@ -28,6 +31,7 @@ Flow shear(double rate) {
                 return Vector3{rate * x[2], 0.0, 0.0};
               },
           .may_be_periodic = along_x_and_y,
+          .may_be_mirrored = about_y,
           .greatest_gradient = std::abs(rate),
           .description = "steady shear, evaluated once"};
 }
@@ -39,17 +43,19 @@ Flow oscillating_shear(double rate, double omega) {
               },
           .steady = false,
           .may_be_periodic = along_x_and_y,
+          .may_be_mirrored = about_y,
           .greatest_gradient = std::abs(rate),
           .angular_frequency = omega,
           .description = fmt::format("shear oscillating with angular frequency {:g}", omega)};
 }
 
-Flow extension(double rate, Extension kind) {
+Flow extension(double rate, Extension kind, const Vector3& lower) {
   const Vector3 rates = kind == Extension::planar ? Vector3{rate, 0.0, -rate} : Vector3{rate, -rate / 2, -rate / 2};
   return {.velocity =
               [rates](const Vector3& x, double) {
                 return Vector3{rates[0] * x[0], rates[1] * x[1], rates[2] * x[2]};
               },
+          .may_be_mirrored = {lower[0] == 0.0, lower[1] == 0.0, lower[2] == 0.0},
           .greatest_gradient = std::abs(rate),
           .description =
               fmt::format("steady {} extension, evaluated once", kind == Extension::planar ? "planar" : "uniaxial")};
@@ -60,6 +66,7 @@ struct Centre {
 };
 Centre centre_of(const Scene& scene, std::size_t axis) {
   const double low = scene.domain.lower[axis], high = scene.domain.upper[axis];
+  if (scene.domain.mirror[axis]) return {low, high - low};
   return {0.5 * (low + high), 0.5 * (high - low)};
 }
 
@@ -70,6 +77,7 @@ Flow plane_poiseuille(double peak, const Centre& z) {
                 return Vector3{peak * (1.0 - s * s), 0.0, 0.0};
               },
           .may_be_periodic = along_x_and_y,
+          .may_be_mirrored = about_y_and_z,
           .driving_force = 2.0 * peak / (z.half * z.half),
           .greatest_gradient = 2.0 * std::abs(peak) / z.half,
           .description = "steady plane Poiseuille, evaluated once"};
@@ -104,6 +112,7 @@ Flow duct(double peak, const Centre& y, const Centre& z) {
                                 series.velocity(0.0, z.half * (1.0 - near)) / (near * z.half));
   return {.velocity = DuctVelocity(peak, y, z),
           .may_be_periodic = along_x,
+          .may_be_mirrored = about_y_and_z,
           .driving_force = peak * series.pressure_gradient(),
           .greatest_gradient = std::abs(peak) * slope,
           .description = "steady duct flow, evaluated once"};
@@ -121,7 +130,7 @@ Flow flow_of(const Scene& scene) {
     case FlowType::oscillating_shear:
       return oscillating_shear(flow.rate, flow.angular_frequency);
     case FlowType::extension:
-      return extension(flow.rate, flow.extension);
+      return extension(flow.rate, flow.extension, scene.domain.lower);
     case FlowType::plane_poiseuille:
       return plane_poiseuille(flow.peak_velocity, centre_of(scene, 2));
     case FlowType::duct:
@@ -139,6 +148,7 @@ Flow custom_flow(const fluid::BoundaryVelocity& velocity, bool steady) {
   return {.velocity = velocity,
           .steady = steady,
           .may_be_periodic = along_all,
+          .may_be_mirrored = about_all,
           .description = steady ? "custom, evaluated once" : "custom, evaluated in each step"};
 }
 

@@ -40,7 +40,7 @@ int moving_degrees(const Scene& scene, std::size_t i) {
 ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid)
     : membrane(initial_markers(scene.vesicles[number], scene.latitudes(number)), scene.latitudes(number),
                membrane_parameters(scene, number)),
-      transfer(grid),
+      transfer(grid, scene.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
       motion(make_membrane_motion(scene, number, membrane)) {
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};

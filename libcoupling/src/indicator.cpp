@@ -1,6 +1,8 @@
 #include "coupling/indicator.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "fluid/operators.h"
@@ -25,22 +27,26 @@ void repeat_last_faces(fluid::FaceVector& g) {
 
 }  // namespace
 
-Indicator::Indicator(const fluid::Grid& grid, std::size_t membranes)
-    : jump_(grid),
+Indicator::Indicator(const fluid::Grid& grid, std::size_t membranes, DeltaKernel kernel)
+    : kernel_(kernel),
+      membranes_(membranes),
+      jump_(grid),
       solver_(fluid::make_elliptic_solver({grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0},
-                                          fluid::FftOptions{})) {
-  membranes_.reserve(membranes);
-  for (std::size_t i = 0; i < membranes; ++i) membranes_.push_back({MarkerTransfer(grid), {}, false});
-}
+                                          fluid::FftOptions{})) {}
 
 void Indicator::add(std::size_t membrane, const vesicle::Surface& surface, double value) {
   if (value == 0.0) return;
   Membrane& m = membranes_.at(membrane);
+  if (!m.transfer) {
+    const std::array<bool, 3> across = mirrors_crossed(jump_.grid(), surface.positions());
+    m.transfer.emplace(jump_.grid(), kernel_, across);
+    m.share = std::pow(0.5, std::ranges::count(across, true));
+  }
   m.weight = value * surface.area_weight();
-  m.transfer.update(surface.positions());
-  m.transfer.spread(surface.normal(), m.weight, jump_);
+  m.transfer->update(surface.positions());
+  m.transfer->spread(surface.normal(), m.weight, jump_);
   m.added = true;
-  content_ += value * surface.volume();
+  content_ += m.share * value * surface.volume();
 }
 
 void Indicator::solve(fluid::Field<fluid::Cell>& field) {
@@ -61,7 +67,7 @@ void Indicator::solve(fluid::Field<fluid::Cell>& field) {
 
 void Indicator::clear() {
   for (Membrane& m : membranes_) {
-    if (m.added) m.transfer.clear(jump_);
+    if (m.added) m.transfer->clear(jump_);
     m.added = false;
   }
   content_ = 0.0;

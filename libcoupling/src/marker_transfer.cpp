@@ -20,34 +20,43 @@ constexpr const char* axis_name[] = {"x", "y", "z"};
       "marker " + std::to_string(marker) + " is at " + axis_name[axis] + " = " + std::to_string(position);
   if (!std::isfinite(position))
     throw SimulationStopped(where, "the state is no longer finite: a smaller time step, or a finer mesh");
+  if (grid.mirror[axis] && position < grid.lower[axis])
+    throw SimulationStopped(where + ", beyond the plane of symmetry at " + std::to_string(grid.lower[axis]),
+                            "a vesicle on one side of the plane stands for itself and its mirror image, which have met "
+                            "here: a finer mesh or "
+                            "grid, a smaller time step, or repulsion (repulsion.range)");
   throw SimulationStopped(where + ", nearer than " + std::to_string(wall_distance) +
                               " grid spacings to the wall (box " + std::to_string(grid.lower[axis]) + " to " +
                               std::to_string(grid.upper[axis]) + ")",
                           "move the vesicle away from the wall or enlarge the box (domain.lower, domain.upper)");
 }
 
-TransferAxis transfer_axis(const fluid::Grid& grid, int axis, bool mirrored, DeltaKernel kernel) {
-  const bool periodic = grid.periodic[axis];
-  const std::string name = axis_name[axis];
-  if (periodic && mirrored)
-    throw std::invalid_argument("marker transfer: the axis " + name +
-                                " is periodic; a mirror plane needs one of walls");
+TransferAxis transfer_axis(const fluid::Grid& grid, int axis, bool across, DeltaKernel kernel) {
+  const bool periodic = grid.periodic[axis], mirrored = grid.mirror[axis];
   const int width = std::max(support_width(kernel, Direction::normal), support_width(kernel, Direction::tangential));
   if ((periodic || mirrored) && grid.cells[axis] < width)
-    throw std::invalid_argument("marker transfer: " + std::to_string(grid.cells[axis]) + " cells along " + name +
-                                "; the kernel \"" + std::string(coupling::name(kernel)) + "\" needs at least " +
-                                std::to_string(width) + " on a periodic or mirrored axis");
-  return {grid.cells[axis], periodic, mirrored, grid.lower[axis], 1.0 / grid.spacing(axis), wall_distance(kernel)};
+    throw std::invalid_argument("marker transfer: " + std::to_string(grid.cells[axis]) + " cells along " +
+                                axis_name[axis] + "; the kernel \"" + std::string(coupling::name(kernel)) +
+                                "\" needs at least " + std::to_string(width) + " on a periodic or mirrored axis");
+  return {grid.cells[axis],     periodic, mirrored, !across, grid.lower[axis], 1.0 / grid.spacing(axis),
+          wall_distance(kernel)};
 }
 
 }  // namespace
 
-MarkerTransfer::MarkerTransfer(const fluid::Grid& grid, DeltaKernel kernel, const std::array<bool, 3>& mirror_lower)
+std::array<bool, 3> mirrors_crossed(const fluid::Grid& grid, const Eigen::Ref<const vesicle::VectorField>& positions) {
+  std::array<bool, 3> crossed{};
+  for (int axis = 0; axis < 3; ++axis)
+    crossed[axis] = grid.mirror[axis] && (positions.col(axis) < grid.lower[axis]).any();
+  return crossed;
+}
+
+MarkerTransfer::MarkerTransfer(const fluid::Grid& grid, DeltaKernel kernel, const std::array<bool, 3>& across)
     : kernel_(kernel), grid_(grid), per_volume_(1.0 / grid.cell_volume()) {
   std::array<TransferAxis, 3> axes{};
   for (int axis = 0; axis < 3; ++axis) {
-    axes[axis] = transfer_axis(grid, axis, mirror_lower[axis], kernel);
-    if (mirror_lower[axis]) per_volume_ *= 0.5;
+    axes[axis] = transfer_axis(grid, axis, across[axis], kernel);
+    if (grid.mirror[axis] && across[axis]) per_volume_ *= 0.5;
   }
   loops_ = with_functions_of(kernel, [&](auto functions) -> std::unique_ptr<Loops> {
     return std::make_unique<KernelLoops<decltype(functions)>>(axes);

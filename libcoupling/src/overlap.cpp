@@ -62,6 +62,11 @@ std::vector<double> nearest_distances(const fluid::Grid& grid, std::span<const v
   for (std::size_t a = 0; a < bounds.size(); ++a)
     range = std::max(range, (bounds[a].upper - bounds[a].lower).lpNorm<1>());
   std::vector<double> nearest(membranes.size(), infinite);
+  // Of mirror images no other is nearer than a membrane's own, which each marker faces at twice its distance from the plane.
+  for (std::size_t a = 0; a < membranes.size(); ++a)
+    for (int axis = 0; axis < 3; ++axis)
+      if (const double gap = bounds[a].lower(axis) - grid.lower[axis]; grid.mirror[axis] && gap >= 0.0)
+        nearest[a] = std::min(nearest[a], 2.0 * gap);
   for (std::size_t a = 0; a < membranes.size(); ++a)
     for (std::size_t b = a; b < membranes.size(); ++b)
       for_each_image(grid, bounds[a], bounds[b], range, [&](const vesicle::Vector3& shift) {

@@ -58,6 +58,14 @@ std::string describe_stability(const Scene& scene) {
                      scene.tension_number() > limit ? "  <- WARNING: beyond it" : "");
 }
 
+std::string mirrored_axes(const Scene& scene) {
+  std::string text;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (scene.domain.mirror[axis])
+      text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ", "xyz"[axis], scene.domain.lower[axis]);
+  return text;
+}
+
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -72,6 +80,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const double fluid_bytes = viscosity.fluid_bytes + viscosity.indicator_bytes;
   plan.head("Resolution");
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
+  if (scene.domain.mirror != std::array<bool, 3>{})
+    plan.line("planes of symmetry", "{}: the box is one side of them", mirrored_axes(scene));
   plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
@@ -163,6 +173,14 @@ std::string describe_markers(const Scene& scene) {
                      time.fluid_velocity == FluidVelocity::frozen ? "frozen" : "interpolated");
 }
 
+std::string describe_kernel(DeltaKernel kernel) {
+  const int normal = support_width(kernel, Direction::normal), across = support_width(kernel, Direction::tangential);
+  const std::string points = normal == across ? fmt::format("{}", normal)
+                                              : fmt::format("{} along a component and {} across it", normal, across);
+  return fmt::format("delta function \"{}\", points {}{}", name(kernel), points,
+                     interpolation(kernel) == Interpolation::divergence_preserving ? ", preserving divergence" : "");
+}
+
 void describe_step(Plan& plan, const Scene& scene) {
   const bool tension = scene.tension_number() > 0.0;
   const bool moving = scene.flow.type != FlowType::rest;
@@ -187,7 +205,7 @@ void describe_step(Plan& plan, const Scene& scene) {
             fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
             "membrane.volume is not \"penalty\"");
   describe_external_forces(plan, scene);
-  plan.part(true, "spread, interpolate", "smoothed 4-point delta, in the bounding box of the markers", "");
+  plan.part(true, "spread, interpolate", describe_kernel(scene.coupling.kernel), "");
   describe_fluid(plan, scene);
   plan.part(moving, "wall velocity", scene.flow.type == FlowType::custom ? "of a program" : flow_of(scene).description,
             "flow.type = \"rest\"");

@@ -11,6 +11,7 @@
 #include "coupling/marker_integrator.h"
 #include "coupling/marker_transfer.h"
 #include "initial_shape.h"
+#include "mirror_symmetry.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -20,11 +21,19 @@ constexpr double largest_tension_excess = 16.0 / 7.0;
 // A marker should not turn by more than about 15 degrees in a step.
 constexpr double largest_turn_per_step = 0.25;
 
+std::string list(const std::array<bool, 3>& axes) {
+  return fmt::format("[{}, {}, {}]", axes[0], axes[1], axes[2]);
+}
+
 void check_domain(const Scene& scene, const std::string& name) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!(scene.domain.upper[axis] > scene.domain.lower[axis]))
       throw SceneError(fmt::format("{}: domain.upper[{}] = {:g}: must be above domain.lower[{}] = {:g}", name, axis,
                                    scene.domain.upper[axis], axis, scene.domain.lower[axis]));
+    if (scene.domain.mirror[axis] && scene.domain.periodic[axis])
+      throw SceneError(fmt::format(
+          "{}: domain.mirror = {}: {} is periodic too (domain.periodic); a plane of symmetry needs an axis with walls",
+          name, list(scene.domain.mirror), "xyz"[axis]));
   }
 }
 
@@ -70,13 +79,16 @@ void check_time_keys(const Scene& scene, const std::string& name) {
 void check_flow(const Scene& scene, const std::string& name) {
   if (scene.flow.type == FlowType::custom) return;
   const Flow flow = flow_of(scene);
-  const auto list = [](const std::array<bool, 3>& axes) {
-    return fmt::format("[{}, {}, {}]", axes[0], axes[1], axes[2]);
-  };
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (scene.domain.periodic[axis] && !flow.may_be_periodic[axis])
       throw SceneError(fmt::format("{}: domain.periodic = {}: this flow.type does not repeat along {}; allowed is {}",
                                    name, list(scene.domain.periodic), "xyz"[axis], list(flow.may_be_periodic)));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (scene.domain.mirror[axis] && !flow.may_be_mirrored[axis])
+      throw SceneError(fmt::format(
+          "{}: domain.mirror = {}: this flow.type is not symmetric about the plane {} = {:g} of domain.lower; "
+          "allowed here is {}",
+          name, list(scene.domain.mirror), "xyz"[axis], scene.domain.lower[axis], list(flow.may_be_mirrored)));
   const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency);
   const auto check_step = [&](const char* key, double step) {
     if (fastest * step > largest_turn_per_step)
@@ -98,6 +110,15 @@ void check_physics(const Scene& scene, const std::string& name) {
         "varies, which fluid.viscous_treatment = \"implicit\" asks for; take auto, pcg or cholmod, or another "
         "treatment",
         name));
+}
+
+void check_gravity(const Scene& scene, const std::string& name) {
+  const bool differs = std::ranges::any_of(scene.vesicles, [](const auto& v) { return v.density_difference != 0.0; });
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (differs && scene.domain.mirror[axis] && scene.gravity.acceleration[axis] != 0.0)
+      throw SceneError(fmt::format(
+          "{}: gravity.acceleration[{}] = {:g}: pulls across the plane of symmetry that domain.mirror = {} asks for",
+          name, axis, scene.gravity.acceleration[axis], list(scene.domain.mirror)));
 }
 
 // Where the number of latitudes of vesicle i was said.
@@ -166,14 +187,32 @@ void check_vesicle_keys(const Scene& scene, std::size_t i, const std::string& na
     throw SceneError(fmt::format("{}: {}.rotation_axis = [0, 0, 0]: must not vanish", name, key));
 }
 
+// A vesicle on both sides of a plane of symmetry must be symmetric about it, markers and all. Returns how low it may reach.
+double check_mirrored(const Scene& scene, std::size_t i, int axis, const vesicle::VectorField& markers,
+                      const std::string& name) {
+  const auto u = static_cast<std::size_t>(axis);
+  const double plane = scene.domain.lower[u];
+  if (markers.col(axis).minCoeff() >= plane) return plane;
+  constexpr double tolerance = 1e-10;  // in radii
+  if (!is_symmetric(markers, axis, plane, tolerance * scene.vesicles[i].radius))
+    throw SceneError(fmt::format(
+        "{}: vesicles.{}: lies across the plane {} = {:g} of domain.mirror without being symmetric about it, each "
+        "marker "
+        "with a mirror image; turn it about an axis normal to the plane or along it (its own axis is z, its longitudes "
+        "count from x), put its centre on the plane, or keep all of it on the side {} >= {:g}",
+        name, i, "xyz"[u], plane, "xyz"[u], plane));
+  return -std::numeric_limits<double>::infinity();
+}
+
 void check_inside_box(const Scene& scene, std::size_t i, const std::string& name) {
   const vesicle::VectorField markers = checked_markers(scene, i, name);
-  const double distance = wall_distance(DeltaKernel::smoothed_four_point);
+  const double distance = wall_distance(scene.coupling.kernel);
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = static_cast<std::size_t>(axis);
     if (scene.domain.periodic[u]) continue;
     const double h = (scene.domain.upper[u] - scene.domain.lower[u]) / scene.domain.cells[u];
-    const double low = scene.domain.lower[u] + distance * h;
+    const bool mirrored = scene.domain.mirror[u];
+    const double low = mirrored ? check_mirrored(scene, i, axis, markers, name) : scene.domain.lower[u] + distance * h;
     const double high = scene.domain.upper[u] - distance * h;
     const double from = markers.col(axis).minCoeff(), to = markers.col(axis).maxCoeff();
     if (from < low || to > high)
@@ -244,6 +283,7 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_time(scene, name);
   check_time_keys(scene, name);
   check_flow(scene, name);
+  check_gravity(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     check_degrees(scene, i, name);

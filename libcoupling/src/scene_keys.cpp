@@ -13,10 +13,15 @@ constexpr Range latitudes{.low = 8, .high = 256};
 const Range viscosity_ratios = Range::between(0.05, 100.0);
 
 template <class Enum>
-void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::initializer_list<std::string_view> names) {
+void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::span<const std::string_view> names) {
   int index = static_cast<int>(value);
-  visitor.choice(key, index, {names.begin(), names.size()});
+  visitor.choice(key, index, names);
   value = static_cast<Enum>(index);
+}
+
+template <class Enum>
+void choice_of(KeyVisitor& visitor, std::string_view key, Enum& value, std::initializer_list<std::string_view> names) {
+  choice_of(visitor, key, value, std::span(names.begin(), names.size()));
 }
 
 void choice_of_name(KeyVisitor& visitor, std::string_view key, std::string& value,
@@ -64,6 +69,7 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.vector("domain.upper", scene.domain.upper, Range::any());
   v.cells("domain.cells", scene.domain.cells, Range::between(8, 2048));
   v.booleans("domain.periodic", scene.domain.periodic);
+  v.booleans("domain.mirror", scene.domain.mirror);
 
   choice_of(v, "flow.type", scene.flow.type,
             {"rest", "shear", "oscillating_shear", "extension", "plane_poiseuille", "duct", "custom"});
@@ -79,6 +85,8 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   choice_of(v, "fluid.inertia", scene.fluid.inertia, {"full", "unsteady", "none"});
   choice_of(v, "fluid.velocity_solver", scene.fluid.velocity_solver, {"auto", "fft", "cholmod", "pcg"});
   choice_of(v, "fluid.pressure_solver", scene.fluid.pressure_solver, {"auto", "fft", "cholmod", "pcg"});
+
+  choice_of(v, "coupling.kernel", scene.coupling.kernel, delta_kernel_names);
 
   v.number("membrane.capillary_number", scene.membrane.capillary_number, Range::positive());
   v.number("membrane.sigma0", scene.membrane.sigma0, Range::from(0.0));

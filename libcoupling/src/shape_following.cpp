@@ -81,6 +81,11 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
 
 // y* = y^k + r d^k.
 bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
+  const double r = step_ratio(dt);
+  leading_ = (1.0 + 2.0 * r) / (1.0 + r);
+  last_ = r * r / (1.0 + r);
+  acceleration_ = has_inertia_ ? reynolds_number_ * leading_ / dt : 0.0;
+  response_.update(acceleration_, solved_viscosity_);
   if (!knows_state_) {
     membrane.update_geometry();
     state_.leftCols<3>() = membrane.positions();
@@ -88,7 +93,7 @@ bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
       state_.col(3) = (membrane.surface().area_weight() / membrane.target_areas()).log();
     knows_state_ = knows_strain_ = true;
   }
-  predicted_ = state_ + step_ratio(dt) * increment_;
+  predicted_ = state_ + r * increment_;
   positions_ = predicted_.leftCols<3>();
   strain_ = predicted_.col(fields() - 1);
   if (!has_tension()) strain_.setZero();
@@ -162,12 +167,7 @@ void ShapeFollowing::find_rates(const Surface& surface) {
 }
 
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
-  const double r = step_ratio(dt);
-  leading_ = (1.0 + 2.0 * r) / (1.0 + r);
-  last_ = r * r / (1.0 + r);
-  const double a = has_inertia_ ? reynolds_number_ * leading_ / dt : 0.0;
-  response_.update(a, solved_viscosity_);
-  const double inertia = a / (a + solved_viscosity_ / (radius_ * radius_));
+  const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
   const double viscosity = has_inertia_ ? explicit_viscosity_ / solved_viscosity_ * (solved_viscosity_ - 1.0) : 0.0;
   const double c = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.

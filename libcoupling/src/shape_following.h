@@ -96,7 +96,8 @@ class ShapeFollowing final : public MembraneMotion {
   };
   std::vector<Stiffness> stiffness_;
   State predicted_, rates_, theta_, phi_;
-  double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0;  // a0, a1
+  double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0,
+         acceleration_ = 0.0;  // a0, a1, Re a0/dt
   vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, owed_force_;
   vesicle::ScalarField strain_, divergence_, normal_velocity_, slip_theta_, slip_phi_;
   vesicle::Coefficients velocity_coefficients_, coefficients_, increment_coefficients_, predicted_coefficients_;

@@ -52,7 +52,7 @@ std::string blow_up_advice(const Scene& scene) {
 }  // namespace
 
 fluid::Grid grid_of(const Scene& scene) {
-  return {scene.domain.lower, scene.domain.upper, scene.domain.cells, scene.domain.periodic};
+  return {scene.domain.lower, scene.domain.upper, scene.domain.cells, scene.domain.periodic, scene.domain.mirror};
 }
 
 fluid::SolverOptions solver_options_of(SolverChoice choice) {

@@ -10,6 +10,7 @@ namespace vesiflow::coupling {
 struct TransferAxis {
   int cells;
   bool periodic, mirrored;
+  bool one_sided;  // of a mirrored one: markers are on the box's side only
   double lower, per_spacing;
   double wall_distance;  // in grid spacings
 
@@ -29,7 +30,8 @@ struct TransferAxis {
     }
     const bool reflected = mirrored && s < 0.0;
     if (mirrored) s = std::abs(s);
-    return {s, reflected, (mirrored || s >= wall_distance) && s < cells - wall_distance};
+    const bool low_enough = s < cells - wall_distance;
+    return {s, reflected, (mirrored ? !(one_sided && reflected) : s >= wall_distance) && low_enough};
   }
 
   /// On a periodic axis: point i of -cells .. 2 cells - 1 by its number in the box.

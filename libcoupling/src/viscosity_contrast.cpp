@@ -7,7 +7,8 @@
 namespace vesiflow::coupling {
 
 ViscosityContrast::ViscosityContrast(const Scene& scene, const fluid::Grid& grid)
-    : indicator_(grid, scene.vesicles.size()), field_(std::make_shared<fluid::Field<fluid::Cell>>(grid)) {
+    : indicator_(grid, scene.vesicles.size(), scene.coupling.kernel),
+      field_(std::make_shared<fluid::Field<fluid::Cell>>(grid)) {
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     ratios_.push_back(scene.viscosity_ratio(i));
     least_ = std::min(least_, ratios_.back());

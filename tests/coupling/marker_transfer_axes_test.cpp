@@ -145,7 +145,7 @@ fluid::Grid whole_or_half(const std::array<bool, 3>& axes, bool whole) {
       lower[axis] = 0.0;
       cells[axis] /= 2;
     }
-  return {lower, upper, cells, {false, !axes[1], false}};
+  return {lower, upper, cells, {false, !axes[1], false}, whole ? std::array<bool, 3>{} : axes};
 }
 
 // Value of a field of the whole at the points of the half.
@@ -168,7 +168,7 @@ TEST(MarkerTransferMirror, SymmetricMarkersGiveTheHalfBoxItsHalfOfTheWhole) {
     for (const auto& axes : mirror_cases) {
       const Mirrored set = mirrored_set(axes, 150, {0.9, 0.7, 0.7});
       fluid::FaceVector whole(whole_or_half(axes, true)), half(whole_or_half(axes, false));
-      MarkerTransfer in_whole(whole.grid(), kernel), in_half(half.grid(), kernel, axes);
+      MarkerTransfer in_whole(whole.grid(), kernel), in_half(half.grid(), kernel);
       in_whole.update(set.x);
       in_half.update(set.x);
       in_whole.spread(set.force, set.area, whole);
@@ -181,6 +181,43 @@ TEST(MarkerTransferMirror, SymmetricMarkersGiveTheHalfBoxItsHalfOfTheWhole) {
         EXPECT_TRUE(value == 0.0 || !axes[c] || at[c] != 0.0);  // no force normal to the plane on the plane
       });
       EXPECT_LT(worst, 2e-14 * largest) << name(kernel);
+    }
+}
+
+// A set on one side of the plane, near enough for its kernels to reach beyond, and its mirror image in the whole.
+TEST(MarkerTransferMirror, MarkersOnOneSideStandForTheirImagesToo) {
+  for (const DeltaKernel kernel : delta_kernels)
+    for (const auto& axes : mirror_cases) {
+      constexpr int count = 100;
+      Mirrored set = mirrored_set({}, count, {0.9, 0.7, 0.7});
+      for (int axis = 0; axis < 3; ++axis)
+        if (axes[static_cast<std::size_t>(axis)]) set.x.col(axis) = set.x.col(axis).abs();
+      fluid::FaceVector whole(whole_or_half(axes, true)), half(whole_or_half(axes, false));
+      MarkerTransfer in_whole(whole.grid(), kernel), in_half(half.grid(), kernel, {false, false, false});
+      in_half.update(set.x);
+      in_half.spread(set.force, set.area, half);
+      VectorField image = set.x, force = set.force;
+      for (int copy = 0; copy < 8; ++copy) {
+        bool is_image = true;
+        for (int axis = 0; axis < 3; ++axis) {
+          const bool reflected = (copy >> axis & 1) != 0;
+          is_image = is_image && (axes[static_cast<std::size_t>(axis)] || !reflected);
+          image.col(axis) = (reflected ? -1.0 : 1.0) * set.x.col(axis);
+          force.col(axis) = (reflected ? -1.0 : 1.0) * set.force.col(axis);
+        }
+        if (!is_image) continue;
+        in_whole.update(image);
+        in_whole.spread(force, set.area, whole);
+      }
+      double worst = 0.0, largest = 0.0;
+      for_each_point(half, [&](double value, const fluid::Vector3& at, int component) {
+        worst = std::max(worst, std::abs(value - at_same_point(whole, at, component)));
+        largest = std::max(largest, std::abs(value));
+      });
+      EXPECT_LT(worst, 2e-14 * largest) << name(kernel);
+      for (int axis = 0; axis < 3; ++axis)
+        if (axes[static_cast<std::size_t>(axis)]) set.x(3, axis) = -1e-9;
+      EXPECT_THROW(in_half.update(set.x), SimulationStopped);
     }
 }
 
@@ -203,7 +240,7 @@ TEST(MarkerTransferMirror, HalfOfASymmetricVelocityInterpolatesAsTheWhole) {
           }
         value = sign * at_same_point(half, folded, component);
       });
-      MarkerTransfer in_whole(whole.grid(), kernel), in_half(half.grid(), kernel, axes);
+      MarkerTransfer in_whole(whole.grid(), kernel), in_half(half.grid(), kernel);
       in_whole.update(set.x);
       in_half.update(set.x);
       VectorField from_whole = VectorField::Zero(set.x.rows(), 3), from_half = from_whole;
@@ -385,7 +422,8 @@ TEST(MarkerTransferAxes, RefusesBoxesItCannotServe) {
         error.what(),
         "marker transfer: 5 cells along x; the kernel \"bao6\" needs at least 6 on a periodic or mirrored axis");
   }
-  EXPECT_THROW(MarkerTransfer(small, DeltaKernel::three_point, {true, false, false}), std::invalid_argument);
+  const fluid::Grid mirrored({0, 0, 0}, {1, 1, 1}, {5, 8, 8}, {false, false, false}, {true, false, false});
+  EXPECT_THROW(MarkerTransfer(mirrored, DeltaKernel::six_point), std::invalid_argument);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 namespace vesiflow::coupling {
 
-/// A flow without vesicles: what the walls do, what drives it, and where it starts from. With x from the middle of the box for
-/// plane_poiseuille and duct, and as it is for the others:
+/// A flow without vesicles: what the walls do, what drives it, and where it starts from. With x from the middle of the box (of the
+/// whole, where the box is one side of a mirror plane) for plane_poiseuille and duct, and as it is for the others:
 ///   rest               u = 0
 ///   shear              u = (rate z, 0, 0)
 ///   oscillating_shear  u = (rate cos(omega t) z, 0, 0); inside exact where Re omega H^2 << 1, the walls being H apart
@@ -20,6 +20,7 @@ struct Flow {
   fluid::BoundaryVelocity velocity;       ///< u(x, t), on the walls and, undisturbed, inside; one thread at a time
   bool steady = true;                     ///< velocity does not depend on time
   std::array<bool, 3> may_be_periodic{};  ///< along which axes it repeats
+  std::array<bool, 3> may_be_mirrored{};  ///< on which axes it is symmetric about the plane of the box's lower end
   /// Uniform force density -dp/dx that takes the place of the pressure drop where axis 0 is periodic: mu_o Lap u.
   double driving_force = 0.0;
   double greatest_gradient = 0.0;  ///< of a velocity component along an axis, anywhere in the box at any time

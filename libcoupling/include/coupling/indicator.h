@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupling/marker_transfer.h"
@@ -23,11 +24,14 @@ namespace vesiflow::coupling {
 /// so the condition is the same as a mean of zero on the walls, weighted with x.n, and it holds in periodic boxes too. (Dirichlet
 /// conditions, zero half a cell off the walls, miss the volume; tests/coupling/indicator_test.cpp compares the two.)
 ///
+/// In a box with mirror planes, a membrane is across a plane if some of its markers are beyond it when it is first added, and
+/// then half of its volume is in the box.
+///
 /// c passes a little over and under the values that it goes between, near the membrane: see docs/viscosity_contrast.md for how much.
 class Indicator {
  public:
   /// \param membranes their number
-  Indicator(const fluid::Grid& grid, std::size_t membranes);
+  Indicator(const fluid::Grid& grid, std::size_t membranes, DeltaKernel kernel = DeltaKernel::smoothed_four_point);
 
   /// Adds a membrane, with its geometry as it is, to what the next solve() is of; nothing if the value is 0.
   /// \throws SimulationStopped when a marker is too near to a wall
@@ -42,15 +46,17 @@ class Indicator {
 
  private:
   struct Membrane {
-    MarkerTransfer transfer;
+    std::optional<MarkerTransfer> transfer;
+    double share = 1.0;  // of its volume, in the box
     vesicle::ScalarField weight;
     bool added = false;
   };
 
+  DeltaKernel kernel_;
   std::vector<Membrane> membranes_;
   fluid::FaceVector jump_;  // g; zero but between add() and solve()
   std::unique_ptr<fluid::EllipticSolver> solver_;
-  double content_ = 0.0;  // sum c_v V_v
+  double content_ = 0.0;  // sum c_v V_v, of the parts in the box
 };
 
 }  // namespace vesiflow::coupling

@@ -11,6 +11,9 @@
 
 namespace vesiflow::coupling {
 
+/// Per axis whether some of the markers (markers x 3) lie beyond the mirror plane of the grid there: false where it has none.
+std::array<bool, 3> mirrors_crossed(const fluid::Grid& grid, const Eigen::Ref<const vesicle::VectorField>& positions);
+
 /// The two transfers between the markers of one membrane and the staggered grid, with a regularized delta function
 /// (coupling/delta_kernel.h):
 ///   spread       f(x)   = sum_m F_m dA_m delta_h(x - X_m)            conservative: total force and torque are kept
@@ -22,26 +25,30 @@ namespace vesiflow::coupling {
 /// - two walls: a marker whose support would leave the box is refused;
 /// - or is periodic: markers may be anywhere, also several boxes away. Points count once (of the faces the first, not the
 ///   last, which is the same face);
-/// - or a mirror plane at its lower end and a wall at the upper: the box is one half of a symmetric whole, and the markers
-///   are those of the whole, on both sides of the plane and on it. Velocities are continued beyond the plane by symmetry
-///   (the normal component changes its sign). The force density is the symmetric part of that of the whole, so markers and
-///   forces that are symmetric give exactly the half of what they give in the whole, and none normal to the plane on the
-///   plane. Half of the power falls on the half box: sum_x f.u h_x h_y h_z = 1/2 sum_m F_m dA_m . U_m, on each such axis.
+/// - or a mirror plane at its lower end and a wall at the upper (Grid::mirror): the box is one half of a symmetric whole.
+///   Velocities are continued beyond the plane by symmetry (the normal component changes its sign). There are two kinds of
+///   sets of markers:
+///   - across the plane: the markers are those of the whole, on both sides and on it. The force density is the symmetric
+///     part of that of the whole, so markers and forces that are symmetric give exactly the half of what they give in the
+///     whole, and none normal to the plane on the plane. Half of the power falls on the half box: sum_x f.u h_x h_y h_z
+///     = 1/2 sum_m F_m dA_m . U_m, on each such axis;
+///   - on the box's side of it: the markers stand for themselves and their mirror images, whose force is spread with theirs
+///     as far as it reaches into the box.
 ///
 /// Several membranes may add to one density, each by its own MarkerTransfer.
 class MarkerTransfer {
  public:
-  /// \param mirror_lower the axes with a mirror plane at the lower end
-  /// \throws std::invalid_argument for an axis that is both periodic and mirrored, or is not of walls and has fewer cells
-  ///         than the kernel has points
+  /// \param across per axis with a mirror plane: whether the markers lie across it. Without meaning for the other axes
+  /// \throws std::invalid_argument for an axis that is not of walls and has fewer cells than the kernel has points
   explicit MarkerTransfer(const fluid::Grid& grid, DeltaKernel kernel = DeltaKernel::smoothed_four_point,
-                          const std::array<bool, 3>& mirror_lower = {false, false, false});
+                          const std::array<bool, 3>& across = {true, true, true});
   ~MarkerTransfer();
   MarkerTransfer(MarkerTransfer&&) noexcept;
   MarkerTransfer& operator=(MarkerTransfer&&) noexcept;
 
   /// Computes the weights for markers at `positions` (markers x 3, in length units). Their number may change.
-  /// \throws SimulationStopped when a marker is so near a wall that its support leaves the box, or is not finite
+  /// \throws SimulationStopped when a marker is so near a wall that its support leaves the box, is beyond a mirror
+  ///         plane that the markers do not lie across, or is not finite
   void update(const Eigen::Ref<const vesicle::VectorField>& positions);
 
   /// Adds the force density of `force` (per membrane area, markers x 3) times `area_weight` (dA per marker).
@@ -73,7 +80,7 @@ class MarkerTransfer {
 
   DeltaKernel kernel_;
   fluid::Grid grid_;
-  double per_volume_;  // the inverse volume of a cell, halved for each mirror plane
+  double per_volume_;  // the inverse volume of a cell, halved for each mirror plane that the markers lie across
   std::unique_ptr<Loops> loops_;
   std::vector<Box> spread_boxes_;  // since the last clear
 };

@@ -14,7 +14,7 @@ namespace vesiflow::coupling {
 bool overlap(const vesicle::Surface& surface, const vesicle::VectorField& markers,
              const vesicle::Vector3& shift = vesicle::Vector3::Zero());
 
-/// For each membrane the least distance between its markers and those of any other, periodic images included (of itself too);
+/// For each membrane the least distance between its markers and those of any other, images by periods and in mirror planes included (of itself too);
 /// infinite where there is no other. All arrays are (markers x 3).
 std::vector<double> nearest_distances(const fluid::Grid& grid, std::span<const vesicle::VectorField* const> membranes);
 

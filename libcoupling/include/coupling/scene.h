@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/delta_kernel.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/coefficients.h"
 #include "vesicle/laplace_beltrami.h"
@@ -65,6 +66,7 @@ struct Scene {
     std::array<double, 3> upper{6.0, 6.0, 6.0};
     std::array<int, 3> cells{64, 64, 64};
     std::array<bool, 3> periodic{false, false, false};  ///< along which axes the box repeats
+    std::array<bool, 3> mirror{false, false, false};    ///< axes at whose lower end is a plane of symmetry, not a wall
   } domain;
   struct Flow {
     FlowType type = FlowType::shear;
@@ -82,6 +84,9 @@ struct Scene {
     SolverChoice velocity_solver = SolverChoice::automatic;
     SolverChoice pressure_solver = SolverChoice::automatic;
   } fluid;
+  struct Coupling {
+    DeltaKernel kernel = DeltaKernel::smoothed_four_point;
+  } coupling;
   struct Membrane {
     double capillary_number = 2.5;
     double sigma0 = 600.0;
