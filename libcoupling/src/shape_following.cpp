@@ -279,7 +279,8 @@ void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
       const auto& answer = f < 3 ? response_[n].normal : n == 0 ? response_[2].normal : response_[n].along;
       const double now = inertia * answer.inertia + viscosity * answer.viscosity;
       const double before = older_inertia * answer.inertia + older_viscosity * answer.viscosity;
-      for (int m = 0; m <= n; ++m) coefficients_(f, n, m) = now * correction_(f, n, m) - before * older_correction_(f, n, m);
+      for (int m = 0; m <= n; ++m)
+        coefficients_(f, n, m) = now * correction_(f, n, m) - before * older_correction_(f, n, m);
     }
   harmonics_.synthesis(coefficients_, theta_);
   owed_force_ = theta_.leftCols<3>();

@@ -78,8 +78,8 @@ class ShapeFollowing final : public MembraneMotion {
   Gmres::Operator operator_;
 
   // The state and what its history is made of.
-  State state_, increment_;  // y^k, d^k
-  vesicle::VectorField curvature_of_path_;  // d^k - r d^{k-1} of X
+  State state_, increment_;                              // y^k, d^k
+  vesicle::VectorField curvature_of_path_;               // d^k - r d^{k-1} of X
   vesicle::Coefficients correction_, older_correction_;  // of the forces, by the last two steps
   double previous_dt_ = 0.0;
   int corrections_ = 0;
@@ -90,7 +90,7 @@ class ShapeFollowing final : public MembraneMotion {
 
   // Work space of a step.
   struct Stiffness {
-    double position = 0.0, strain = 0.0;  // Z_n
+    double position = 0.0, strain = 0.0;              // Z_n
     double position_force = 0.0, strain_force = 0.0;  // per position and strain
     double damping = 0.0;
   };
