@@ -1,4 +1,4 @@
-# SUNDIALS, the parts asked for as components: targets SUNDIALS::kinsol, SUNDIALS::cvode. Each of these libraries brings the
+# SUNDIALS, the parts asked for as components: targets SUNDIALS::arkode, SUNDIALS::kinsol, SUNDIALS::cvode. Each of these libraries brings the
 # serial vectors and dense solvers along. (The package's own configuration file asks for OpenMP in C, which projects that
 # enable C++ only cannot answer.)
 find_path(SUNDIALS_INCLUDE_DIR sundials/sundials_config.h)

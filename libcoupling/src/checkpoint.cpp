@@ -59,6 +59,10 @@ void write_vesicle(Hdf5File& file, const std::string& group, const VesicleState&
   write_array(file, group + "/positions", m.positions.data(), m.positions.size());
   write_array(file, group + "/target_areas", m.target_areas.data(), m.target_areas.size());
   write_array(file, group + "/initial_areas", m.initial_areas.data(), m.initial_areas.size());
+  if (m.lagged_strain.size() > 0)
+    write_array(file, group + "/lagged_strain", m.lagged_strain.data(), m.lagged_strain.size());
+  if (m.integral_tension.size() > 0)
+    write_array(file, group + "/integral_tension", m.integral_tension.data(), m.integral_tension.size());
   file.attribute(group, "initial_volume", m.initial_volume);
   file.attribute(group, "redistributions", state.redistributions);
   if (!state.motion_history.empty())
@@ -77,6 +81,13 @@ VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen:
   read_into(file, group + "/positions", m.positions.data(), 3 * size, path);
   read_into(file, group + "/target_areas", m.target_areas.data(), size, path);
   read_into(file, group + "/initial_areas", m.initial_areas.data(), size, path);
+  const auto read_optional = [&](const std::string& name, vesicle::ScalarField& field) {
+    if (!file.exists(group + name)) return;
+    field.resize(markers);
+    read_into(file, group + name, field.data(), size, path);
+  };
+  read_optional("/lagged_strain", m.lagged_strain);
+  read_optional("/integral_tension", m.integral_tension);
   m.initial_volume = file.read_number(group, "initial_volume");
   state.redistributions = file.read_integer(group, "redistributions");
   if (file.exists(group + "/motion_history")) state.motion_history = file.read(group + "/motion_history");
@@ -174,7 +185,7 @@ auto as_input(const Read& read) {
 
 SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
   const fluid::Grid grid = grid_of(scene);
-  SimulationState state{fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}};
+  SimulationState state{fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}, {}};
   state.clock = {.time = file.read_number("/", "time"),
                  .previous_time = file.read_number("/", "previous_time"),
                  .time_step = file.read_number("/", "time_step"),
@@ -182,6 +193,7 @@ SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::
   read_velocity(file, "/velocity", state.velocity, path);
   read_velocity(file, "/previous_velocity", state.previous_velocity, path);
   read_field(file, "/pressure", state.pressure, path);
+  if (file.exists("/step_control")) state.step_control = file.read("/step_control");
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     const Eigen::Index latitudes = scene.latitudes(i);
     state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
@@ -204,6 +216,9 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
     write_velocity(file, "/velocity", state.velocity);
     write_velocity(file, "/previous_velocity", state.previous_velocity);
     write_field(file, "/pressure", state.pressure);
+    if (!state.step_control.empty())
+      write_array(file, "/step_control", state.step_control.data(),
+                  static_cast<Eigen::Index>(state.step_control.size()));
     for (std::size_t i = 0; i < state.vesicles.size(); ++i)
       write_vesicle(file, fmt::format("/vesicle_{}", i), state.vesicles[i]);
     for (std::size_t i = 0; i < simulation.scene().vesicles.size(); ++i)

@@ -13,6 +13,8 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene, std::size_t 
   parameters.spontaneous_curvature = scene.spontaneous_curvature(i);
   parameters.tension_law = scene.membrane.tension_law;
   parameters.tension_form = scene.membrane.tension_form;
+  if (scene.time.markers == "strain_relaxation") parameters.strain_relaxation = scene.time.relaxation;
+  parameters.integral_tension = {scene.membrane.integral_rate, scene.membrane.integral_degrees};
   parameters.area = scene.membrane.area;
   parameters.area_stiffness = scene.membrane.area_stiffness;
   parameters.laplacian.form = scene.membrane.laplacian;
@@ -44,12 +46,32 @@ ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const f
     thickness_.emplace(membrane, scene.coupling.kernel, scene.spacing(), 0.5 * (1.0 + scene.viscosity_ratio(number)));
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
+<<<<<<< HEAD
   velocity_at_ = [this](const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity) {
     const PhaseTimer timer(*interpolation_seconds_);
     transfer.update(positions);
     transfer.interpolate(*fluid_velocity_, velocity);
     if (thickness_) thickness_->add_to(membrane, velocity);
   };
+=======
+}
+
+void ImmersedVesicle::FlowAtMarkers::operator()(const Positions& positions, vesicle::VectorField& velocity) const {
+  const PhaseTimer timer(*vesicle_.interpolation_seconds_);
+  vesicle_.transfer.update(positions);
+  vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
+}
+
+void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions& positions,
+                                                vesicle::VectorField& velocity) const {
+  (*this)(positions, velocity);
+  if (fraction == 1.0) return;
+  const PhaseTimer timer(*vesicle_.interpolation_seconds_);
+  vesicle::VectorField& at_start = vesicle_.at_start_;
+  at_start.resize(velocity.rows(), 3);
+  vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
+  velocity = fraction * velocity + (1.0 - fraction) * at_start;
+>>>>>>> coupling-core
 }
 
 void ImmersedVesicle::update() {
@@ -64,11 +86,20 @@ void ImmersedVesicle::predict(double dt) {
   update();
 }
 
-void ImmersedVesicle::advance(double dt, const fluid::FaceVector& velocity, double& interpolation_seconds) {
-  fluid_velocity_ = &velocity;
+void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity,
+                              double& interpolation_seconds) {
+  previous_velocity_ = &previous_velocity;
+  velocity_ = &velocity;
   interpolation_seconds_ = &interpolation_seconds;
-  motion->advance(dt, velocity_at_, membrane, velocities);
+  motion->advance(dt, FlowAtMarkers(*this), membrane, velocities);
   is_current = false;
+}
+
+void ImmersedVesicle::restore_history(double dt, std::span<const double> history) {
+  if (history.empty())
+    motion->restart();
+  else
+    motion->restore_history(dt, history);
 }
 
 void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {

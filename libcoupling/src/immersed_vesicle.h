@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "coupling/marker_transfer.h"
 #include "coupling/scene.h"
@@ -24,8 +25,9 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
-  /// To the end of the step, in the fluid velocity of the new time. Adds the seconds of interpolation.
-  void advance(double dt, const fluid::FaceVector& velocity, double& interpolation_seconds);
+  /// To the end of the step, in the fluid velocities of its two ends. Adds the seconds of interpolation.
+  void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity,
+               double& interpolation_seconds);
 
   /// Velocities at markers that no step has moved yet.
   void interpolate(double dt, const fluid::FaceVector& velocity);
@@ -33,19 +35,39 @@ struct ImmersedVesicle {
   /// Force per area on the fluid (markers x 3).
   const vesicle::VectorField& force() const { return total_force ? *total_force : membrane.force(); }
 
+  /// That of the motion, left by a step of length dt; none if empty.
+  void restore_history(double dt, std::span<const double> history);
+
   vesicle::Membrane membrane;
   MarkerTransfer transfer;
   MarkerVelocities velocities;
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
   std::int64_t redistributions = 0;
-  bool is_current = false;  ///< whether geometry and forces are those of the membrane's state
+  double area = 0.0, volume = 0.0;  ///< before an adaptive step
+  bool is_current = false;          ///< whether geometry and forces are those of the membrane's state
 
  private:
+<<<<<<< HEAD
   std::optional<ThicknessCorrection> thickness_;
   VelocityAt velocity_at_;  // made once, so that steps do not allocate
   const fluid::FaceVector* fluid_velocity_ = nullptr;
+=======
+  class FlowAtMarkers final : public VelocityAt {
+   public:
+    explicit FlowAtMarkers(ImmersedVesicle& vesicle) : vesicle_(vesicle) {}
+    void operator()(const Positions& positions, vesicle::VectorField& velocity) const override;
+    void operator()(double fraction, const Positions& positions, vesicle::VectorField& velocity) const override;
+
+   private:
+    ImmersedVesicle& vesicle_;
+  };
+
+  const fluid::FaceVector* previous_velocity_ = nullptr;
+  const fluid::FaceVector* velocity_ = nullptr;
+>>>>>>> coupling-core
   double* interpolation_seconds_ = nullptr;
+  vesicle::VectorField at_start_;  // of the step, where that is asked for
 };
 
 /// Degrees of the velocity that shapes the membrane of vesicle number i.

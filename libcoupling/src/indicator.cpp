@@ -53,13 +53,9 @@ void Indicator::solve(fluid::Field<fluid::Cell>& field) {
   repeat_last_faces(jump_);
   fluid::divergence(jump_, field);
   solver_->solve(std::as_const(field).unknowns(), field.unknowns());
-  for (Membrane& m : membranes_) {
-    if (m.added) m.transfer->clear(jump_);
-    m.added = false;
-  }
   const fluid::Grid& grid = field.grid();
   const double mean = content_ / (grid.length(0) * grid.length(1) * grid.length(2));
-  content_ = 0.0;
+  clear();
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < field.extent(2); ++k) {
     for (int j = 0; j < field.extent(1); ++j) {
@@ -67,6 +63,14 @@ void Indicator::solve(fluid::Field<fluid::Cell>& field) {
       for (int i = 0; i < field.extent(0); ++i) row[i] += mean;
     }
   }
+}
+
+void Indicator::clear() {
+  for (Membrane& m : membranes_) {
+    if (m.added) m.transfer->clear(jump_);
+    m.added = false;
+  }
+  content_ = 0.0;
 }
 
 }  // namespace vesiflow::coupling

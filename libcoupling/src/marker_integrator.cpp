@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "arkode_integrator.h"
+
 namespace vesiflow::coupling {
 namespace {
 
@@ -12,12 +14,16 @@ class Euler final : public MarkerIntegrator {
   explicit Euler(std::size_t size) : velocity_(size) {}
 
   void advance(double dt, const MarkerVelocity& velocity, std::span<double> state) override {
-    velocity(state, velocity_);
+    velocity(1.0, state, velocity_);
     for (std::size_t i = 0; i < state.size(); ++i) state[i] += dt * velocity_[i];
+    ++steps_;
   }
+
+  MarkerStatistics statistics() const override { return {steps_, 0, steps_}; }
 
  private:
   std::vector<double> velocity_;
+  long steps_ = 0;
 };
 
 class AdamsBashforth2 final : public MarkerIntegrator {
@@ -25,14 +31,17 @@ class AdamsBashforth2 final : public MarkerIntegrator {
   explicit AdamsBashforth2(std::size_t size) : velocity_(size), previous_(size) {}
 
   void advance(double dt, const MarkerVelocity& velocity, std::span<double> state) override {
-    velocity(state, velocity_);
-    if (dt == previous_dt_) {
-      for (std::size_t i = 0; i < state.size(); ++i) state[i] += dt * (1.5 * velocity_[i] - 0.5 * previous_[i]);
+    velocity(1.0, state, velocity_);
+    if (previous_dt_ > 0.0) {
+      const double half_ratio = 0.5 * dt / previous_dt_;
+      for (std::size_t i = 0; i < state.size(); ++i)
+        state[i] += dt * ((1.0 + half_ratio) * velocity_[i] - half_ratio * previous_[i]);
     } else {
       for (std::size_t i = 0; i < state.size(); ++i) state[i] += dt * velocity_[i];
     }
     std::swap(velocity_, previous_);
     previous_dt_ = dt;
+    ++steps_;
   }
 
   std::span<const double> history() const override {
@@ -50,17 +59,23 @@ class AdamsBashforth2 final : public MarkerIntegrator {
 
   void restart() override { previous_dt_ = 0.0; }
 
+  MarkerStatistics statistics() const override { return {steps_, 0, steps_}; }
+
  private:
   std::vector<double> velocity_, previous_;
   double previous_dt_ = 0.0;  // of the step that made previous_; 0 before the first
+  long steps_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size) {
-  if (name == "euler") return std::make_unique<Euler>(size);
+std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size,
+                                                         const MarkerTolerances& tolerances) {
+  if (name == "euler" || name == "strain_relaxation") return std::make_unique<Euler>(size);
   if (name == "ab2") return std::make_unique<AdamsBashforth2>(size);
-  throw std::invalid_argument("marker integrator '" + std::string(name) + "': allowed are euler, ab2");
+  if (name == "arkode") return make_arkode_integrator(size, tolerances);
+  throw std::invalid_argument("marker integrator '" + std::string(name) +
+                              "': allowed are euler, ab2, arkode, strain_relaxation");
 }
 
 }  // namespace vesiflow::coupling

@@ -1,7 +1,12 @@
 #include "membrane_motion.h"
 
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
 #include "coupling/marker_integrator.h"
 #include "shape_following.h"
+#include "step_error.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -11,12 +16,15 @@ namespace {
 class MaterialMotion final : public MembraneMotion {
  public:
   MaterialMotion(const Scene& scene, const vesicle::Membrane& membrane)
-      : positions_(membrane.positions()),
-        integrator_(make_marker_integrator(scene.time.markers, static_cast<std::size_t>(positions_.size()))) {
-    filtered_velocity_ = [this](std::span<const double> state, std::span<double> velocity) {
-      (*step_.velocity_at)(Eigen::Map<const vesicle::VectorField>(state.data(), positions_.rows(), 3),
-                           step_.velocities->fluid);
-      mesh_velocity(step_.dt, *step_.membrane, *step_.velocities);
+      : interpolates_in_time_(scene.time.fluid_velocity == FluidVelocity::interpolated),
+        has_stages_(scene.time.markers == "arkode"),
+        positions_(membrane.positions()),
+        displacement_(positions_),
+        integrator_(make_marker_integrator(scene.time.markers, static_cast<std::size_t>(positions_.size()),
+                                           {scene.time.relative_tolerance, scene.time.absolute_tolerance})) {
+    if (scene.time.adaptive) error_.emplace(positions_.rows());
+    filtered_velocity_ = [this](double fraction, std::span<const double> state, std::span<double> velocity) {
+      evaluate(fraction, Eigen::Map<const vesicle::VectorField>(state.data(), positions_.rows(), 3));
       Eigen::Map<vesicle::VectorField>(velocity.data(), positions_.rows(), 3) = step_.velocities->mesh;
     };
   }
@@ -26,18 +34,48 @@ class MaterialMotion final : public MembraneMotion {
     step_ = {dt, &velocity_at, &membrane, &velocities};
     positions_ = membrane.positions();
     integrator_->advance(dt, filtered_velocity_, {positions_.data(), static_cast<std::size_t>(positions_.size())});
+    displacement_ = positions_ - membrane.positions();
+    // The velocities that go with the whole step, and not with the last stage of it.
+    if (has_stages_) {
+      positions_ = membrane.positions() + 0.5 * displacement_;
+      evaluate(0.5, positions_);
+    }
+    membrane.correct_displacement(displacement_);
+    positions_ = membrane.positions() + displacement_;
     membrane.advance(positions_, velocities.fluid, velocities.mesh, dt);
+    if (error_) error_->add(dt, displacement_);
   }
 
   void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) override {
     membrane.filter_velocity(velocities.fluid, dt, velocities.mesh);
   }
 
-  std::span<const double> history() const override { return integrator_->history(); }
-  void restore_history(double dt, std::span<const double> history) override {
-    integrator_->restore_history(dt, history);
+  std::optional<double> position_error() const override { return error_ ? error_->value() : std::nullopt; }
+  MarkerStatistics statistics() const override { return integrator_->statistics(); }
+
+  // Of the integrator, followed by that of the error.
+  std::span<const double> history() const override {
+    const auto of_integrator = integrator_->history();
+    if (!error_ || !error_->has_history()) return of_integrator;
+    history_.assign(of_integrator.begin(), of_integrator.end());
+    const vesicle::VectorField& of_error = error_->history();
+    history_.insert(history_.end(), of_error.data(), of_error.data() + of_error.size());
+    return history_;
   }
-  void restart() override { integrator_->restart(); }
+  void restore_history(double dt, std::span<const double> history) override {
+    if (error_) {
+      const auto size = static_cast<std::size_t>(positions_.size());
+      if (history.size() < size) throw std::invalid_argument("the history of the markers is too short");
+      const std::size_t rest = history.size() - size;
+      error_->restore_history(dt, Eigen::Map<const vesicle::VectorField>(history.data() + rest, positions_.rows(), 3));
+      history = history.first(rest);
+    }
+    if (!history.empty()) integrator_->restore_history(dt, history);
+  }
+  void restart() override {
+    integrator_->restart();
+    if (error_) error_->restart();
+  }
 
  private:
   // What the integrator's callback needs of the step under way; the callback is made once, so that steps do not allocate.
@@ -48,10 +86,19 @@ class MaterialMotion final : public MembraneMotion {
     MarkerVelocities* velocities = nullptr;
   };
 
-  vesicle::VectorField positions_;
+  // Normals, areas and volume are those of the start of the step in all its stages.
+  void evaluate(double fraction, const VelocityAt::Positions& positions) {
+    (*step_.velocity_at)(interpolates_in_time_ ? fraction : 1.0, positions, step_.velocities->fluid);
+    mesh_velocity(step_.dt, *step_.membrane, *step_.velocities);
+  }
+
+  bool interpolates_in_time_, has_stages_;
+  vesicle::VectorField positions_, displacement_;
   std::unique_ptr<MarkerIntegrator> integrator_;
+  std::optional<StepError> error_;  // of adaptive steps
   MarkerVelocity filtered_velocity_;
   Step step_;
+  mutable std::vector<double> history_;
 };
 
 }  // namespace

@@ -1,17 +1,26 @@
 #pragma once
 
-#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 
+#include "coupling/marker_integrator.h"
 #include "coupling/scene.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {
 
 /// Interpolates the fluid velocity: U at the given positions, both of shape (markers, 3).
-using VelocityAt =
-    std::function<void(const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity)>;
+class VelocityAt {
+ public:
+  using Positions = Eigen::Ref<const vesicle::VectorField>;
+
+  virtual ~VelocityAt() = default;
+  /// At the new time, the end of the step.
+  virtual void operator()(const Positions& positions, vesicle::VectorField& velocity) const = 0;
+  /// Within the step, linear in time from its start (fraction 0) to its end (1).
+  virtual void operator()(double fraction, const Positions& positions, vesicle::VectorField& velocity) const = 0;
+};
 
 /// Velocities at the markers, shape (markers, 3).
 struct MarkerVelocities {
@@ -43,7 +52,15 @@ class MembraneMotion {
   /// U~ of an interpolated U at the membrane's present state, before any step has made it.
   virtual void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) = 0;
 
-  /// What a continued run needs besides the membrane's state; empty where there is nothing.
+  /// Error of the positions that the last step added, root mean square over the markers; nothing where it is not known, as in
+  /// a first step. What adaptive steps are chosen by.
+  virtual std::optional<double> position_error() const { return std::nullopt; }
+
+  /// What moving the markers took so far.
+  virtual MarkerStatistics statistics() const { return {}; }
+
+  /// What a continued run needs besides the membrane's state; empty where there is nothing. `dt` is the length of the step
+  /// that left it.
   virtual std::span<const double> history() const { return {}; }
   virtual void restore_history(double /*dt*/, std::span<const double> /*history*/) {}
 
@@ -51,7 +68,7 @@ class MembraneMotion {
   virtual void restart() {}
 };
 
-/// The motion that time.markers names, for this membrane.
+/// The motion that time.markers names, for the membrane of that vesicle of the scene.
 std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::size_t vesicle,
                                                      const vesicle::Membrane& membrane);
 

@@ -22,21 +22,26 @@ void MembraneResponse::update(double a, double mu) {
   for (std::size_t n = 0; n < modes_.size(); ++n) {
     const double k = wavenumber(static_cast<int>(n)), in_plane = k * spacing_;
     Mode mode;
-    double along_squared = 0.0, normal_squared = 0.0;
+    const auto add = [](Mode::Answer& answer, double force, double qq, double inverse) {
+      answer.velocity += force * inverse;
+      answer.inertia += force * inverse * inverse;
+      answer.viscosity += force * qq * inverse * inverse;
+    };
     for (int i = 0; i < points; ++i) {
       // k_z = k tan(angle), so that dk_z / q^2 = d(angle) / k.
       const double angle = (i + 0.5) * std::numbers::pi / (2 * points);
       const double kz = k * std::tan(angle), qq = k * k + kz * kz;
       const double across = kz * spacing_;
-      const double weight = std::exp(-second_moment * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
+      const double weight =
+          std::exp(-second_moment * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
       const double inverse = 1.0 / (a + mu * qq);
-      mode.along += weight * kz * kz * inverse;
-      mode.normal += weight * k * k * inverse;
-      along_squared += weight * kz * kz * inverse * inverse;
-      normal_squared += weight * k * k * inverse * inverse;
+      add(mode.along, weight * kz * kz, qq, inverse);
+      add(mode.normal, weight * k * k, qq, inverse);
     }
-    mode.along_memory = along_squared / mode.along;
-    mode.normal_memory = normal_squared / mode.normal;
+    for (Mode::Answer* answer : {&mode.along, &mode.normal}) {
+      answer->inertia /= answer->velocity;
+      answer->viscosity /= answer->velocity;
+    }
     modes_[n] = mode;
   }
 }

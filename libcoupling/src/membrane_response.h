@@ -13,13 +13,15 @@ namespace vesiflow::coupling {
 /// (1/(4 mu k) both, for a = h = 0). Within the sheet the delta function takes another exp(-0.1 (k h)^2), as was seen by trial; the
 /// second moment of the kernels would give more, and then modes of k h of 2 to 3 were underestimated and unstable.
 ///
-/// The time derivative of the fluid keeps a share of what it was given: `memory` is the ratio of that response with a squared
-/// denominator to the response itself (-d(log response)/da). Units: lengths of the scene, mu of the outer fluid.
+/// What a fluid that carries part of its operator explicitly remembers of a velocity is -d(log response)/da for its time derivative
+/// (`inertia`) and -d(log response)/d mu for its viscous term (`viscosity`). Units: lengths of the scene, mu of the outer fluid.
 class MembraneResponse {
  public:
   struct Mode {
-    double along = 0.0, along_memory = 0.0;
-    double normal = 0.0, normal_memory = 0.0;
+    struct Answer {
+      double velocity = 0.0, inertia = 0.0, viscosity = 0.0;
+    };
+    Answer along, normal;
   };
 
   /// \param radius of the sphere of the membrane's area

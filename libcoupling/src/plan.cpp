@@ -43,6 +43,21 @@ class Plan {
   std::string text_;
 };
 
+std::string describe_time(const Scene& scene) {
+  if (!scene.time.adaptive)
+    return fmt::format("{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
+  return fmt::format("adaptive steps in [{:.3g}, {:.3g}], at first {:.6g}, to t = {:g}; position error {:.3g} per step",
+                     scene.time.smallest_step, scene.time.largest_step, scene.time.step, scene.time.end,
+                     scene.time.tolerance);
+}
+
+std::string describe_stability(const Scene& scene) {
+  const double limit = scene.stable_tension_number();
+  if (!std::isfinite(limit)) return "no limit to it with these markers";
+  return fmt::format("stable below about {:.3g}{}", limit,
+                     scene.tension_number() > limit ? "  <- WARNING: beyond it" : "");
+}
+
 std::string mirrored_axes(const Scene& scene) {
   std::string text;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -70,9 +85,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
-  plan.line("time", "{} steps of {:.6g} to t = {:g}", scene.steps(), scene.time.step, scene.time.end);
-  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); stable below 7 to 8{}", scene.tension_number(),
-            scene.tension_number() > 7.0 ? "  <- WARNING: beyond it" : "");
+  plan.line("time", "{}", describe_time(scene));
+  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); {}", scene.tension_number(), describe_stability(scene));
   plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})", 1e-6 * (fluid_bytes + membranes),
             1e-6 * fluid_bytes, 1e-6 * membranes);
   plan.line("threads", "{}", threads);
@@ -150,6 +164,15 @@ void describe_external_forces(Plan& plan, const Scene& scene) {
             "repulsion.range = 0");
 }
 
+std::string describe_markers(const Scene& scene) {
+  const Scene::Time& time = scene.time;
+  if (time.markers == "strain_relaxation")
+    return fmt::format("euler, strain relaxed by {:g} in a step", time.relaxation);
+  if (time.markers != "arkode") return time.markers;
+  return fmt::format("arkode, tolerance {:g}, fluid velocity {} within a step", time.absolute_tolerance,
+                     time.fluid_velocity == FluidVelocity::frozen ? "frozen" : "interpolated");
+}
+
 std::string describe_kernel(DeltaKernel kernel) {
   const int normal = support_width(kernel, Direction::normal), across = support_width(kernel, Direction::tangential);
   const std::string points = normal == across ? fmt::format("{}", normal)
@@ -173,6 +196,9 @@ void describe_step(Plan& plan, const Scene& scene) {
                   scene.membrane.tension_form == vesicle::TensionForm::divergence ? "divergence" : "non-divergence",
                   scene.membrane.sigma0),
       "membrane.sigma0 = 0");
+  plan.part(tension && scene.membrane.integral_rate > 0.0, "integral tension",
+            fmt::format("rate {:g}, degrees below {}", scene.membrane.integral_rate, scene.membrane.integral_degrees),
+            tension ? "membrane.integral_rate = 0" : "membrane.sigma0 = 0");
   plan.part(scene.membrane.area == vesicle::AreaControl::penalty, "area penalty",
             fmt::format("force with c_a = {:g}", scene.membrane.area_stiffness), "membrane.area is not \"penalty\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
@@ -191,27 +217,32 @@ void describe_step(Plan& plan, const Scene& scene) {
     plan.part(driving != 0.0, "driving force", fmt::format("uniform, {:.4g} along x", driving),
               "walls drive the flow, or nothing does");
   }
-  plan.part(true, "mesh control",
+  const bool follows = scene.time.markers == "shape_following";
+  plan.part(!follows, "mesh control",
             fmt::format("{}: normal velocity {} degrees, tangential {}",
                         scene.mesh.filter == vesicle::FilterOrder::velocity_first
                             ? "velocity filtered, then split"
                             : "normal and tangential parts filtered apart",
                         normal, scene.mesh.tangential_degrees),
-            "");
+            "time.markers = \"shape_following\": the mesh follows the shape");
   plan.part(scene.mesh.redistribute == Redistribute::when_needed, "redistribution",
             fmt::format("along the membrane, when its aspect ratio is above {:g} or the spectrum's tail above {:g}",
                         scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
             "mesh.redistribute = \"never\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
-            "exact, of the marker velocity", "membrane.volume is not \"projection\"");
-  plan.part(scene.membrane.area == vesicle::AreaControl::projection, "area projection", "exact, of the marker velocity",
+            "exact, of the marker velocity and its step", "membrane.volume is not \"projection\"");
+  plan.part((follows && tension) || scene.membrane.area == vesicle::AreaControl::projection, "area projection",
+            follows ? "exact, of each step, but for spheres" : "exact, of the marker velocity and its step",
             "membrane.area is not \"projection\"");
-  plan.part(true, "markers", scene.time.markers, "");
-  plan.part(tension, "target areas",
+  plan.part(true, "markers", describe_markers(scene), "");
+  plan.part(follows && tension, "strain field",
+            "implicit in tension and bending, momentum of its corrections owed to the fluid",
+            follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
+  plan.part(tension && !follows, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"
                 : "Eqs. (32), (33), slip against the interpolated velocity (paper)",
-            "membrane.sigma0 = 0");
+            follows ? "time.markers = \"shape_following\"" : "membrane.sigma0 = 0");
 }
 
 void describe_output(Plan& plan, const Scene& scene) {

@@ -35,20 +35,26 @@ std::string drift(Simulation& simulation) {
   return fmt::format("area {:+.1e}, volume {:+.1e}", area, volume);
 }
 
+// Of adaptive steps, whose number is not known, the present length instead.
+std::string steps_in_all(const Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  return scene.time.adaptive ? fmt::format(" of {:.2g}", simulation.time_step()) : fmt::format("/{}", scene.steps());
+}
+
 }  // namespace
 
-Progress::Progress(bool quiet, long first_step, long last_step)
+Progress::Progress(bool quiet, const Simulation& simulation)
     : quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
-      first_step_(first_step),
-      last_step_(last_step),
+      first_step_(simulation.steps()),
+      first_time_(simulation.time()),
       start_(Clock::now()),
       last_shown_(start_) {}
 
 void Progress::update(Simulation& simulation) {
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
-  const bool last = simulation.steps() == last_step_;
+  const bool last = simulation.finished();
   const auto interval = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(5000);
   if (last || now - last_shown_ >= interval) show(simulation, now);
 }
@@ -56,13 +62,14 @@ void Progress::update(Simulation& simulation) {
 void Progress::show(Simulation& simulation, Clock::time_point now) {
   last_shown_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  const auto done = static_cast<double>(simulation.steps() - first_step_);
-  const double per_step = seconds / done;
-  const std::string text = fmt::format(
-      "step {}/{}, t = {:.3f}, {:.3g} s/step, {} left, {}", simulation.steps(), last_step_, simulation.time(), per_step,
-      duration(per_step * static_cast<double>(last_step_ - simulation.steps())), drift(simulation));
+  const double end = simulation.scene().time.end;
+  const double per_step = seconds / static_cast<double>(simulation.steps() - first_step_);
+  const double per_time = seconds / (simulation.time() - first_time_);
+  const std::string text = fmt::format("step {}{}, t = {:.3f}, {:.3g} s/step, {} left, {}", simulation.steps(),
+                                       steps_in_all(simulation), simulation.time(), per_step,
+                                       duration(per_time * std::max(0.0, end - simulation.time())), drift(simulation));
   if (terminal_) {
-    const double fraction = static_cast<double>(simulation.steps()) / static_cast<double>(last_step_);
+    const double fraction = std::min(1.0, simulation.time() / end);
     fmt::print(stderr, "\r{} {:3.0f} % {}\033[K", bar(fraction), 100.0 * fraction, text);
     bar_shown_ = true;
   } else {

@@ -10,7 +10,7 @@ namespace vesiflow::coupling {
 /// pipe, nothing when quiet.
 class Progress {
  public:
-  Progress(bool quiet, long first_step, long last_step);
+  Progress(bool quiet, const Simulation& simulation);
   /// Called after every step; prints only when it is time to.
   void update(Simulation& simulation);
   /// Ends the bar's line, so that other text can follow.
@@ -24,7 +24,8 @@ class Progress {
   bool quiet_;
   bool terminal_;
   bool bar_shown_ = false;
-  long first_step_, last_step_;
+  long first_step_;
+  double first_time_;
   Clock::time_point start_, last_shown_;
 };
 

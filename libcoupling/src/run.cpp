@@ -48,9 +48,14 @@ class InterruptGuard {
   void (*old_terminate_)(int);
 };
 
-// Whether a multiple of `every` was passed by the step that ended at `time`.
-bool due(double every, double time, double dt) {
+// Whether the step that ended at `time` is the one for a multiple of `every`: the nearest of equal steps, and the first at or
+// beyond it where steps are adaptive and the next is not known.
+bool due(double every, double time, double dt, bool adaptive) {
   if (every <= 0.0) return false;
+  if (adaptive) {
+    constexpr double round_off = 1e-9;
+    return std::floor(time / every + round_off) > std::floor((time - dt) / every + round_off);
+  }
   return std::floor((time + 0.5 * dt) / every) > std::floor((time - 0.5 * dt) / every);
 }
 
@@ -162,8 +167,11 @@ void Run::record(bool last) {
   const PhaseTimer timer(record_.output_seconds);
   const Scene::Output& output = simulation_.scene().output;
   const long step = simulation_.steps();
-  const double time = simulation_.time(), dt = simulation_.scene().time.step;
-  const auto wanted = [&](double every) { return every > 0.0 && (last || step == 0 || due(every, time, dt)); };
+  const double time = simulation_.time(), dt = simulation_.time_step();
+  const bool adaptive = simulation_.scene().time.adaptive;
+  const auto wanted = [&](double every) {
+    return every > 0.0 && (last || step == 0 || due(every, time, dt, adaptive));
+  };
   if (wanted(output.diagnostics_every) && table_->last_step() < step) {
     table_->write(simulation_);
     warn_of_resolution();
@@ -204,29 +212,28 @@ void Run::stop(const SimulationStopped& reason) {
 RunStatus Run::execute() {
   start();
   const InterruptGuard guard;
-  const long last = simulation_.scene().steps();
-  progress_.emplace(options_.quiet, simulation_.steps(), last);
+  progress_.emplace(options_.quiet, simulation_);
   try {
     PhaseTimer timer(record_.wall_seconds);
-    record(simulation_.steps() >= last);
+    record(simulation_.finished());
   } catch (const SimulationStopped& reason) {
     stop(reason);
   }
-  while (simulation_.steps() < last && !interrupt_requested) {
+  while (!simulation_.finished() && !interrupt_requested) {
     try {
       const PhaseTimer timer(record_.wall_seconds);
       simulation_.step();
       ++record_.steps_taken;
       log_redistributions();
       progress_->update(simulation_);
-      record(simulation_.steps() == last);
+      record(simulation_.finished());
     } catch (const SimulationStopped& reason) {
       progress_->finish();
       stop(reason);
     }
   }
   progress_->finish();
-  const bool completed = simulation_.steps() >= last;
+  const bool completed = simulation_.finished();
   if (!completed) record(true);
   finish(completed ? "completed" : "interrupted");
   return completed ? RunStatus::completed : RunStatus::interrupted;

@@ -8,6 +8,7 @@
 
 #include "coupling/errors.h"
 #include "coupling/flow.h"
+#include "coupling/marker_integrator.h"
 #include "coupling/marker_transfer.h"
 #include "initial_shape.h"
 #include "mirror_symmetry.h"
@@ -15,8 +16,8 @@
 namespace vesiflow::coupling {
 namespace {
 
-// Above g = 7 to 8 the explicit tension is unstable (marker Euler); twice that is not worth starting.
-constexpr double largest_tension_number = 16.0;
+// Twice the stable g and a little is not worth starting.
+constexpr double largest_tension_excess = 16.0 / 7.0;
 // A marker should not turn by more than about 15 degrees in a step.
 constexpr double largest_turn_per_step = 0.25;
 
@@ -40,15 +41,39 @@ void check_time(const Scene& scene, const std::string& name) {
   if (scene.time.step > scene.time.end)
     throw SceneError(
         fmt::format("{}: time.step = {:g}: must not be above time.end = {:g}", name, scene.time.step, scene.time.end));
-  if (scene.time.markers != "shape_following" && scene.tension_number() > largest_tension_number)
+  const double limit = scene.stable_tension_number();
+  if (scene.tension_number() > largest_tension_excess * limit)
     throw SceneError(fmt::format(
         "{}: time.step = {:g}: g = time.step membrane.sigma0/(4 h) = {:.3g} is far beyond the stability limit of the "
-        "explicit tension (7 to 8); take time.step <= {:.3g} or sigma0 <= {:.4g}",
-        name, scene.time.step, scene.tension_number(), scene.time.step * 7.0 / scene.tension_number(),
-        7.0 * 4.0 * scene.spacing() / scene.time.step));
+        "explicit tension ({:.3g}); take time.step <= {:.3g} or sigma0 <= {:.4g}",
+        name, scene.time.step, scene.tension_number(), limit, scene.time.step * limit / scene.tension_number(),
+        limit * 4.0 * scene.spacing() / scene.time.step));
   if (static_cast<double>(scene.steps()) > 1e9)
     throw SceneError(fmt::format("{}: time.end = {:g}: that is {} steps of time.step = {:g}; at most 1e9", name,
                                  scene.time.end, scene.steps(), scene.time.step));
+}
+
+void check_time_keys(const Scene& scene, const std::string& name) {
+  const Scene::Time& time = scene.time;
+  if (time.markers == "arkode" && !have_sundials())
+    throw SceneError(
+        fmt::format("{}: time.markers = \"arkode\": this build has no SUNDIALS; configure with "
+                    "-DVESIFLOW_WITH_SUNDIALS=ON, or take another of time.markers",
+                    name));
+  if (time.fluid_velocity == FluidVelocity::interpolated && time.markers != "arkode")
+    throw SceneError(fmt::format(
+        "{}: time.fluid_velocity = \"interpolated\": goes with time.markers = \"arkode\", the only one that "
+        "looks into the step",
+        name));
+  if (time.markers == "strain_relaxation" && scene.tension_number() == 0.0)
+    throw SceneError(
+        fmt::format("{}: time.markers = \"strain_relaxation\": needs a tension, membrane.sigma0 > 0", name));
+  if (!time.adaptive) return;
+  if (!(time.smallest_step <= time.step && time.step <= time.largest_step))
+    throw SceneError(
+        fmt::format("{}: time.step = {:g}: the first of adaptive steps must be in [time.smallest_step, "
+                    "time.largest_step] = [{:g}, {:g}]",
+                    name, time.step, time.smallest_step, time.largest_step));
 }
 
 void check_flow(const Scene& scene, const std::string& name) {
@@ -64,12 +89,16 @@ void check_flow(const Scene& scene, const std::string& name) {
           "{}: domain.mirror = {}: this flow.type is not symmetric about the plane {} = {:g} of domain.lower; "
           "allowed here is {}",
           name, list(scene.domain.mirror), "xyz"[axis], scene.domain.lower[axis], list(flow.may_be_mirrored)));
-  const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency), step = scene.time.step;
-  if (fastest * step > largest_turn_per_step)
-    throw SceneError(
-        fmt::format("{}: time.step = {:g}: the flow changes a velocity at a rate of up to {:.4g}, which times "
-                    "time.step must be <= {:g}; so time.step <= {:.4g}",
-                    name, step, fastest, largest_turn_per_step, largest_turn_per_step / fastest));
+  const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency);
+  const auto check_step = [&](const char* key, double step) {
+    if (fastest * step > largest_turn_per_step)
+      throw SceneError(
+          fmt::format("{}: {} = {:g}: the flow changes a velocity at a rate of up to {:.4g}, which times {} must be "
+                      "<= {:g}; so {} <= {:.4g}",
+                      name, key, step, fastest, key, largest_turn_per_step, key, largest_turn_per_step / fastest));
+  };
+  check_step("time.step", scene.time.step);
+  if (scene.time.adaptive) check_step("time.largest_step", scene.time.largest_step);
 }
 
 void check_physics(const Scene& scene, const std::string& name) {
@@ -117,6 +146,11 @@ void check_degrees(const Scene& scene, std::size_t i, const std::string& name) {
 }
 
 void check_tension(const Scene& scene, const std::string& name) {
+  if (scene.time.markers == "shape_following" && scene.membrane.integral_rate > 0.0)
+    throw SceneError(fmt::format(
+        "{}: membrane.integral_rate = {:g}: time.markers = \"shape_following\" keeps the area without it; set "
+        "it to 0, or take another way to move the markers",
+        name, scene.membrane.integral_rate));
   if (!scene.membrane.g) return;
   const double meant = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
   if (std::abs(meant - scene.membrane.sigma0) > 5e-3 * meant)
@@ -240,6 +274,12 @@ bool Scene::has_viscosity_contrast() const {
   return false;
 }
 
+double Scene::stable_tension_number() const {
+  if (time.markers == "shape_following") return std::numeric_limits<double>::infinity();
+  constexpr double without_relaxation = 7.0;
+  return without_relaxation * (time.markers == "strain_relaxation" ? (2.0 - time.relaxation) / time.relaxation : 1.0);
+}
+
 long Scene::steps() const {
   // A last step that would only make up for round-off in time.end is not taken.
   return static_cast<long>(std::min(1e18, std::ceil(time.end / time.step - 1e-6)));
@@ -250,6 +290,7 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_physics(scene, name);
   check_tension(scene, name);
   check_time(scene, name);
+  check_time_keys(scene, name);
   check_flow(scene, name);
   check_gravity(scene, name);
   check_thickness(scene, name);

@@ -7,7 +7,7 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::string_view marker_motions[] = {"euler", "ab2", "shape_following"};
+constexpr std::string_view marker_motions[] = {"euler", "ab2", "arkode", "strain_relaxation", "shape_following"};
 constexpr Range latitudes{.low = 8, .high = 256};
 // What has been tried, in libfluid and here.
 const Range viscosity_ratios = Range::between(0.05, 100.0);
@@ -53,6 +53,7 @@ void visit_preset(Scene& scene, KeyVisitor& v) {
 
 void apply_preset(Scene& scene) {
   if (scene.method.preset != Preset::paper) return;
+  scene.time.markers = "euler";
   scene.fluid.viscous_treatment = fluid::ViscousTreatment::explicit_;
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;
@@ -96,6 +97,8 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.number("membrane.spontaneous_curvature", scene.membrane.spontaneous_curvature, Range::any());
   choice_of(v, "membrane.tension_law", scene.membrane.tension_law, {"logarithmic", "linear"});
   choice_of(v, "membrane.tension_form", scene.membrane.tension_form, {"divergence", "non_divergence"});
+  v.number("membrane.integral_rate", scene.membrane.integral_rate, Range::from(0.0));
+  v.integer("membrane.integral_degrees", scene.membrane.integral_degrees, Range::from(1.0));
   choice_of(v, "membrane.area", scene.membrane.area, {"none", "penalty", "projection"});
   v.number("membrane.area_stiffness", scene.membrane.area_stiffness, Range::from(0.0));
   choice_of(v, "membrane.laplacian", scene.membrane.laplacian, {"cartesian", "christoffel", "paper"});
@@ -119,8 +122,18 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.number("time.step", scene.time.step, Range::positive());
   v.number("time.end", scene.time.end, Range::positive());
   choice_of_name(v, "time.markers", scene.time.markers, marker_motions);
+  v.number("time.relative_tolerance", scene.time.relative_tolerance, Range::from(0.0));
+  v.number("time.absolute_tolerance", scene.time.absolute_tolerance, Range::positive());
+  choice_of(v, "time.fluid_velocity", scene.time.fluid_velocity, {"frozen", "interpolated"});
+  v.number("time.relaxation", scene.time.relaxation, {.low = 0.0, .high = 1.0, .low_open = true});
+  v.boolean("time.adaptive", scene.time.adaptive);
+  v.number("time.tolerance", scene.time.tolerance, Range::positive());
+  v.number("time.smallest_step", scene.time.smallest_step, Range::positive());
+  v.number("time.largest_step", scene.time.largest_step, Range::positive());
 
   v.number("limits.local_area_error", scene.limits.local_area_error, Range::positive());
+  v.number("limits.area_error", scene.limits.area_error, Range::positive());
+  v.number("limits.volume_error", scene.limits.volume_error, Range::positive());
 
   v.number("output.diagnostics_every", scene.output.diagnostics_every, Range::from(0.0));
   v.number("output.vesicle_every", scene.output.vesicle_every, Range::from(0.0));

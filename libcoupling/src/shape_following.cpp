@@ -25,6 +25,8 @@ constexpr double gmres_tolerance = 1e-4;
 // Z over the rates of MembraneResponse, without inertia and where inertia dominates the response (seen by trial: 1.5 is unstable
 // there at Re = 1).
 constexpr double safety = 1.5, safety_with_inertia = 3.0;
+// More where part of the viscosity is explicit: 10 at ratio 20, where 3 is unstable at dt = 1/48, and 3 at ratio 5.
+constexpr double safety_per_ratio = 1.0;
 
 Eigen::Map<Eigen::VectorXd> as_vector(Coefficients& c) {
   return {reinterpret_cast<double*>(c.block(0, 0)), Eigen::Index(c.fields()) * c.degrees() * (c.degrees() + 1)};
@@ -44,9 +46,9 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
     : sigma0_(membrane.parameters().sigma0),
       bending_(0.25 / membrane.parameters().capillary_number),
       reynolds_number_(scene.fluid.reynolds_number),
-      mean_viscosity_(0.5 * (1.0 + scene.viscosity_ratio(number))),
       radius_(std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi))),
       has_inertia_(scene.fluid.inertia != fluid::Inertia::none),
+      extrapolates_viscosity_(scene.fluid.viscous_treatment == fluid::ViscousTreatment::extrapolated),
       keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
       harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
       response_(harmonics_.degrees(), radius_, scene.spacing()),
@@ -58,9 +60,18 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   for (VectorField* field : {&positions_, &velocity_, &mesh_velocity_, &vectors_, &owed_force_, &curvature_of_path_})
     *field = VectorField::Zero(markers, 3);
   coefficients_.resize(harmonics_.degrees(), fields());
-  impulse_ = older_impulse_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
-  impulse_.set_zero();
-  older_impulse_.set_zero();
+  correction_ = older_correction_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
+  correction_.set_zero();
+  older_correction_.set_zero();
+  solved_viscosity_ = 0.5 * (1.0 + scene.viscosity_ratio(number));
+  explicit_viscosity_ = 0.0;
+  if (scene.has_viscosity_contrast() && has_inertia_ &&
+      scene.fluid.viscous_treatment != fluid::ViscousTreatment::implicit) {
+    double largest = 1.0;
+    for (std::size_t i = 0; i < scene.vesicles.size(); ++i) largest = std::max(largest, scene.viscosity_ratio(i));
+    explicit_viscosity_ = largest - solved_viscosity_;
+    solved_viscosity_ = largest;
+  }
   vesicle::Conserved conserved;
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
@@ -70,6 +81,11 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
 
 // y* = y^k + r d^k.
 bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
+  const double r = step_ratio(dt);
+  leading_ = (1.0 + 2.0 * r) / (1.0 + r);
+  last_ = r * r / (1.0 + r);
+  acceleration_ = has_inertia_ ? reynolds_number_ * leading_ / dt : 0.0;
+  response_.update(acceleration_, solved_viscosity_);
   if (!knows_state_) {
     membrane.update_geometry();
     state_.leftCols<3>() = membrane.positions();
@@ -77,7 +93,7 @@ bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
       state_.col(3) = (membrane.surface().area_weight() / membrane.target_areas()).log();
     knows_state_ = knows_strain_ = true;
   }
-  predicted_ = state_ + step_ratio(dt) * increment_;
+  predicted_ = state_ + r * increment_;
   positions_ = predicted_.leftCols<3>();
   strain_ = predicted_.col(fields() - 1);
   if (!has_tension()) strain_.setZero();
@@ -151,12 +167,9 @@ void ShapeFollowing::find_rates(const Surface& surface) {
 }
 
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
-  const double r = step_ratio(dt);
-  leading_ = (1.0 + 2.0 * r) / (1.0 + r);
-  last_ = r * r / (1.0 + r);
-  const double a = has_inertia_ ? reynolds_number_ * leading_ / dt : 0.0;
-  response_.update(a, mean_viscosity_);
-  const double c = safety + (safety_with_inertia - safety) * a / (a + mean_viscosity_ / (radius_ * radius_));
+  const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
+  const double viscosity = has_inertia_ ? explicit_viscosity_ / solved_viscosity_ * (solved_viscosity_ - 1.0) : 0.0;
+  const double c = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
   double variance = 0.0;
   if (has_tension()) {
@@ -170,11 +183,10 @@ void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
     const MembraneResponse::Mode& mode = response_[n];
     const double force = c * k * k * (bending_ * k * k + largest_tension_);  // normal, per displacement
     Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
-    z.position = dt * force * mode.normal;
-    z.position_impulse = -force * mode.normal_memory;
-    const MembraneResponse::Mode& uniform = response_[2];
-    z.strain = dt * c * sigma0_ * (n == 0 ? variance * uniform.normal : k * k * mode.along);
-    z.strain_impulse = c * sigma0_ * (n == 0 ? uniform.normal_memory : mode.along_memory);
+    z.position = dt * force * mode.normal.velocity;
+    z.position_force = -force;
+    z.strain = dt * c * sigma0_ * (n == 0 ? variance * response_[2].normal.velocity : k * k * mode.along.velocity);
+    z.strain_force = c * sigma0_;
     z.damping = damping * largest_speed_ / radius_ * std::pow(n, 8) / top;
   }
 }
@@ -205,7 +217,7 @@ void ShapeFollowing::solve_increment(double dt) {
   gmres_.solve(operator_, right_side_, gmres_tolerance, solution_);
 
   as_vector(coefficients_) = solution_;
-  if (has_inertia_) keep_owed_impulse();
+  if (has_inertia_) keep_corrections();
   harmonics_.synthesis(coefficients_, theta_);
   as_vector(coefficients_) += r * as_vector(increment_coefficients_);
   harmonics_.synthesis(coefficients_, increment_);
@@ -241,24 +253,35 @@ void ShapeFollowing::estimate_error(double ratio) {
   ++smooth_steps_;
 }
 
-// What the implicit corrections of this step, as changes of the forces, owe to the fluid's momentum.
-void ShapeFollowing::keep_owed_impulse() {
-  std::swap(impulse_, older_impulse_);
-  impulses_ = std::min(2, impulses_ + 1);
+// What the implicit correction of this step is as a change of the forces: tension, and force per area.
+void ShapeFollowing::keep_corrections() {
+  std::swap(correction_, older_correction_);
+  corrections_ = std::min(2, corrections_ + 1);
   for (int n = 0; n < harmonics_.degrees(); ++n) {
     const Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
     for (int m = 0; m <= n; ++m)
       for (int f = 0; f < fields(); ++f)
-        impulse_(f, n, m) = (f < 3 ? z.position_impulse : z.strain_impulse) * coefficients_(f, n, m);
+        correction_(f, n, m) = (f < 3 ? z.position_force : z.strain_force) * coefficients_(f, n, m);
   }
 }
 
-// The time derivative of the fluid, Re/dt [(1+r) e^k - r^2/(1+r) e^{k-1}], of the velocities e that the corrections stand for.
+// What the terms of the fluid at old times lack: the time derivative Re/dt [(1+r) e^k - r^2/(1+r) e^{k-1}], and the explicit part
+// of the viscosity at e^k or extrapolated, of the velocities e that the corrections stand for.
 void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
-  owes_ = has_inertia_ && impulses_ > 0;
+  owes_ = has_inertia_ && corrections_ > 0;
   if (!owes_) return;
   const double r = step_ratio(dt), rate = reynolds_number_ / dt;
-  as_vector(coefficients_) = rate * (1.0 + r) * as_vector(impulse_) - rate * r * r / (1.0 + r) * as_vector(older_impulse_);
+  const double inertia = rate * (1.0 + r), older_inertia = rate * r * r / (1.0 + r);
+  const double viscosity = explicit_viscosity_ * (extrapolates_viscosity_ ? 1.0 + r : 1.0);
+  const double older_viscosity = extrapolates_viscosity_ ? explicit_viscosity_ * r : 0.0;
+  for (int n = 0; n < harmonics_.degrees(); ++n)
+    for (int f = 0; f < fields(); ++f) {
+      const auto& answer = f < 3 ? response_[n].normal : n == 0 ? response_[2].normal : response_[n].along;
+      const double now = inertia * answer.inertia + viscosity * answer.viscosity;
+      const double before = older_inertia * answer.inertia + older_viscosity * answer.viscosity;
+      for (int m = 0; m <= n; ++m)
+        coefficients_(f, n, m) = now * correction_(f, n, m) - before * older_correction_(f, n, m);
+    }
   harmonics_.synthesis(coefficients_, theta_);
   owed_force_ = theta_.leftCols<3>();
   if (!has_tension()) return;
@@ -269,7 +292,7 @@ void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
 
 std::span<const double> ShapeFollowing::history() const {
   if (!knows_state_) return {};
-  history_.assign({previous_dt_, static_cast<double>(impulses_), static_cast<double>(smooth_steps_)});
+  history_.assign({previous_dt_, static_cast<double>(corrections_), static_cast<double>(smooth_steps_)});
   const auto append = [this](const double* values, Eigen::Index size) {
     history_.insert(history_.end(), values, values + size);
   };
@@ -277,16 +300,16 @@ std::span<const double> ShapeFollowing::history() const {
   append(increment_.data(), increment_.size());
   append(curvature_of_path_.data(), curvature_of_path_.size());
   if (has_inertia_)
-    for (const Coefficients* impulse : {&impulse_, &older_impulse_})
-      append(reinterpret_cast<const double*>(impulse->block(0, 0)),
-             Eigen::Index(impulse->fields()) * impulse->degrees() * (impulse->degrees() + 1));
+    for (const Coefficients* correction : {&correction_, &older_correction_})
+      append(reinterpret_cast<const double*>(correction->block(0, 0)),
+             Eigen::Index(correction->fields()) * correction->degrees() * (correction->degrees() + 1));
   return history_;
 }
 
 void ShapeFollowing::restore_history(double /*dt*/, std::span<const double> history) {
   const auto strains = static_cast<std::size_t>(state_.size() - 3 * state_.rows());
   const auto increments = static_cast<std::size_t>(increment_.size());
-  const auto impulses = has_inertia_ ? static_cast<std::size_t>(as_vector(impulse_).size()) : 0;
+  const auto impulses = has_inertia_ ? static_cast<std::size_t>(as_vector(correction_).size()) : 0;
   const auto markers = static_cast<std::size_t>(curvature_of_path_.size());
   const std::size_t size = 3 + strains + increments + markers + 2 * impulses;
   if (history.size() != size)
@@ -294,7 +317,7 @@ void ShapeFollowing::restore_history(double /*dt*/, std::span<const double> hist
                                 " values, expected " + std::to_string(size));
   restart();
   previous_dt_ = history[0];
-  impulses_ = static_cast<int>(history[1]);
+  corrections_ = static_cast<int>(history[1]);
   smooth_steps_ = static_cast<int>(history[2]);
   const double* values = history.data() + 3;
   const auto take = [&values](std::size_t count, double* to) {
@@ -306,19 +329,19 @@ void ShapeFollowing::restore_history(double /*dt*/, std::span<const double> hist
   take(increments, increment_.data());
   take(markers, curvature_of_path_.data());
   if (!has_inertia_) return;
-  take(impulses, as_vector(impulse_).data());
-  take(impulses, as_vector(older_impulse_).data());
+  take(impulses, as_vector(correction_).data());
+  take(impulses, as_vector(older_correction_).data());
 }
 
 void ShapeFollowing::restart() {
   knows_state_ = knows_strain_ = false;
   previous_dt_ = 0.0;
   smooth_steps_ = 0;
-  impulses_ = 0;
+  corrections_ = 0;
   owes_ = false;
   increment_.setZero();
-  impulse_.set_zero();
-  older_impulse_.set_zero();
+  correction_.set_zero();
+  older_correction_.set_zero();
   position_error_.reset();
 }
 

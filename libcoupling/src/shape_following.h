@@ -23,7 +23,9 @@ namespace vesiflow::coupling {
 /// Z_n is dt times the rate at which a mode of degree n relaxes by tension and bending (MembraneResponse), overestimated on
 /// purpose: the recurrence is stable if Z is at least 3/4 of the true rate, and exact to second order for any Z, as Z only meets
 /// d^{k+1} - r d^k. So the step is limited by accuracy, not by sigma0: sigma0 may be so large that strains are negligible.
-/// Where the fluid has inertia, the momentum of the corrections is handed to it in the next steps (owed_force).
+/// A fluid with inertia, or with a viscosity that is explicit in part, must be told of the velocities that the corrections stand
+/// for: the next steps hand it the forces that its terms at old times lack (owed_force). Without them Z meets a fluid that does
+/// not remember, and the recurrence grows by up to a half in each step.
 ///
 /// Area and volume are exact after each step (ConservationProjection::correct_displacement along smooth directions); s is then the
 /// Lagrange multiplier of its own equation. Near spheres, where both cannot be kept, the volume is. Degrees kept: those the fluid's
@@ -37,7 +39,9 @@ class ShapeFollowing final : public MembraneMotion {
                MarkerVelocities& velocities) override;
   void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) override;
   const vesicle::VectorField* owed_force() const override { return owes_ ? &owed_force_ : nullptr; }
-  std::optional<double> position_error() const { return position_error_; }
+  std::optional<double> position_error() const override { return position_error_; }
+
+  MarkerStatistics statistics() const override { return {steps_, 0, steps_}; }
 
   std::span<const double> history() const override;
   void restore_history(double dt, std::span<const double> history) override;
@@ -60,12 +64,13 @@ class ShapeFollowing final : public MembraneMotion {
   void solve_increment(double dt);
   void conserve(const vesicle::Surface& surface);
   void estimate_error(double ratio);
-  void keep_owed_impulse();
+  void keep_corrections();
   void find_owed_force(double dt, const vesicle::Surface& surface);
   void apply_operator(const Gmres::Vector& x, Gmres::Vector& result);
 
-  double sigma0_, bending_, reynolds_number_, mean_viscosity_, radius_;
-  bool has_inertia_, keeps_volume_;
+  double sigma0_, bending_, reynolds_number_, radius_;
+  double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
+  bool has_inertia_, extrapolates_viscosity_, keeps_volume_;
   vesicle::SphericalHarmonics harmonics_;
   MembraneResponse response_;
   std::optional<vesicle::ConservationProjection> volume_and_area_, volume_;
@@ -73,11 +78,11 @@ class ShapeFollowing final : public MembraneMotion {
   Gmres::Operator operator_;
 
   // The state and what its history is made of.
-  State state_, increment_;  // y^k, d^k
-  vesicle::VectorField curvature_of_path_;  // d^k - r d^{k-1} of X
-  vesicle::Coefficients impulse_, older_impulse_;  // owed by the last two steps
+  State state_, increment_;                              // y^k, d^k
+  vesicle::VectorField curvature_of_path_;               // d^k - r d^{k-1} of X
+  vesicle::Coefficients correction_, older_correction_;  // of the forces, by the last two steps
   double previous_dt_ = 0.0;
-  int impulses_ = 0;
+  int corrections_ = 0;
   int smooth_steps_ = 0;  // since a start
   bool knows_state_ = false, knows_strain_ = false;
   long steps_ = 0;
@@ -85,13 +90,14 @@ class ShapeFollowing final : public MembraneMotion {
 
   // Work space of a step.
   struct Stiffness {
-    double position = 0.0, strain = 0.0;  // Z_n
-    double position_impulse = 0.0, strain_impulse = 0.0;
+    double position = 0.0, strain = 0.0;              // Z_n
+    double position_force = 0.0, strain_force = 0.0;  // per position and strain
     double damping = 0.0;
   };
   std::vector<Stiffness> stiffness_;
   State predicted_, rates_, theta_, phi_;
-  double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0;  // a0, a1
+  double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0,
+         acceleration_ = 0.0;  // a0, a1, Re a0/dt
   vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, owed_force_;
   vesicle::ScalarField strain_, divergence_, normal_velocity_, slip_theta_, slip_phi_;
   vesicle::Coefficients velocity_coefficients_, coefficients_, increment_coefficients_, predicted_coefficients_;

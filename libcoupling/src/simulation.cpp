@@ -11,6 +11,7 @@
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
 #include "phase_timer.h"
+#include "step_control.h"
 #include "viscosity_contrast.h"
 
 namespace vesiflow::coupling {
@@ -37,11 +38,15 @@ fluid::FluidParameters fluid_parameters_of(const Scene& scene, const ViscosityCo
 }
 
 std::string blow_up_advice(const Scene& scene) {
+  const double limit = scene.stable_tension_number();
+  if (!std::isfinite(limit))
+    return "reduce time.step, or the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too "
+           "deflated";
   return fmt::format(
-      "the explicit tension is unstable above g = dt sigma0/(4 mu h) of 7 to 8, and this scene has g = {:.3g}: reduce "
+      "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: reduce "
       "time.step or membrane.sigma0; if g is well below that, the mesh is too coarse for the shape (more "
       "mesh.latitudes) or the vesicle too deflated",
-      scene.tension_number());
+      limit, scene.tension_number());
 }
 
 }  // namespace
@@ -95,24 +100,32 @@ Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
     for (std::size_t i = 0; i < vesicles_.size(); ++i)
       redistributions_.try_emplace(scene_.latitudes(i), scene_.latitudes(i), moving_degrees(scene_, i));
   last_redistributions_.reserve(vesicles_.size());
-  for (auto& v : vesicles_) v->interpolate(scene_.time.step, fluid_.velocity());
+  if (scene_.time.adaptive) step_control_ = std::make_unique<StepControl>(scene_);
+  for (auto& v : vesicles_) v->interpolate(time_step(), fluid_.velocity());
 }
 
 Simulation::~Simulation() = default;
 
 void Simulation::step() {
   try {
-    compute_forces();  // Steps 1 and 2: coefficients, geometry, forces, spreading
-    update_viscosity();
-    advance_fluid();  // Step 3: Navier-Stokes
-    move_markers();   // Steps 4 and 5: interpolation, mesh control, markers, target areas
+    if (step_control_)
+      take_adaptive_step();
+    else
+      take_step(scene_.time.step);
     redistribute_markers();
   } catch (const std::domain_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
   }
 }
 
-void Simulation::compute_forces() {
+void Simulation::take_step(double dt) {
+  compute_forces(dt);  // Steps 1 and 2: coefficients, geometry, forces, spreading
+  update_viscosity();
+  advance_fluid(dt);  // Step 3: Navier-Stokes
+  move_markers(dt);   // Steps 4 and 5: interpolation, mesh control, markers, target areas
+}
+
+void Simulation::compute_forces(double dt) {
   {
     const PhaseTimer timer(seconds_.spread);
     for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
@@ -120,7 +133,7 @@ void Simulation::compute_forces() {
   {
     const PhaseTimer timer(seconds_.membrane);
     for (std::size_t i = 0; i < vesicles_.size(); ++i) {
-      vesicles_[i]->predict(scene_.time.step);
+      vesicles_[i]->predict(dt);
       check_limits(i);
     }
     external_forces_->compute();
@@ -151,9 +164,9 @@ void Simulation::update_viscosity() {
   contrast_->update();
 }
 
-void Simulation::advance_fluid() {
+void Simulation::advance_fluid(double dt) {
   try {
-    fluid_.step(scene_.time.step);
+    fluid_.step(dt);
   } catch (const std::invalid_argument& error) {  // the velocity solver is made in the first step, or refused
     throw SceneError(fmt::format("fluid.velocity_solver: {}", error.what()));
   } catch (const std::runtime_error& error) {
@@ -161,10 +174,10 @@ void Simulation::advance_fluid() {
   }
 }
 
-void Simulation::move_markers() {
+void Simulation::move_markers(double dt) {
   for (auto& v : vesicles_) {
     const PhaseTimer timer(seconds_.mesh);
-    v->advance(scene_.time.step, fluid_.velocity(), seconds_.interpolate);
+    v->advance(dt, fluid_.previous_velocity(), fluid_.velocity(), seconds_.interpolate);
   }
 }
 
@@ -184,7 +197,7 @@ void Simulation::redistribute_markers() {
     if (!report.moved) continue;
     v.motion->restart();
     v.is_current = false;
-    v.interpolate(scene_.time.step, fluid_.velocity());
+    v.interpolate(time_step(), fluid_.velocity());
     ++v.redistributions;
     last_redistributions_.push_back({i, report});
   }
@@ -240,6 +253,20 @@ const fluid::Field<fluid::Cell>* Simulation::viscosity() const {
   return contrast_ ? contrast_->field().get() : nullptr;
 }
 
+MarkerStatistics Simulation::marker_statistics(std::size_t i) const {
+  return vesicles_.at(i)->motion->statistics();
+}
+
+bool Simulation::finished() const {
+  if (!step_control_) return steps() >= scene_.steps();
+  constexpr double round_off = 1e-12;
+  return time() >= scene_.time.end * (1.0 - round_off);
+}
+
+double Simulation::time_step() const {
+  return step_control_ && steps() > 0 ? fluid_.clock().time_step : scene_.time.step;
+}
+
 PhaseSeconds Simulation::phase_seconds() const {
   PhaseSeconds all = seconds_;
   all.mesh -= all.interpolate;  // interpolation is asked for inside the move
@@ -252,11 +279,12 @@ PhaseSeconds Simulation::phase_seconds() const {
 
 SimulationState Simulation::state() const {
   SimulationState state{
-      fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}};
+      fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}, {}};
   for (const auto& v : vesicles_) {
     const auto history = v->motion->history();
     state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
   }
+  if (step_control_) state.step_control = step_control_->state();
   return state;
 }
 
@@ -269,13 +297,11 @@ void Simulation::restore(const SimulationState& state) {
     ImmersedVesicle& v = *vesicles_[i];
     v.membrane.restore(state.vesicles[i].membrane);
     v.is_current = false;
-    if (!state.vesicles[i].motion_history.empty())
-      v.motion->restore_history(scene_.time.step, state.vesicles[i].motion_history);
-    else
-      v.motion->restart();
+    v.restore_history(fluid_.clock().time_step, state.vesicles[i].motion_history);
     v.redistributions = state.vesicles[i].redistributions;
-    v.interpolate(scene_.time.step, fluid_.velocity());
+    v.interpolate(time_step(), fluid_.velocity());
   }
+  if (step_control_) step_control_->restore(state.step_control);
   last_redistributions_.clear();
 }
 

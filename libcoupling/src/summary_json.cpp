@@ -25,7 +25,7 @@ Json parameters_of(const Scene& scene) {
   return all;
 }
 
-Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions) {
+Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions, const MarkerStatistics& markers) {
   Json entry;
   visit_record(diagnostics, [&](std::string_view name, const double* values, int length) {
     if (length == 1) {
@@ -35,6 +35,9 @@ Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions) {
     }
   });
   entry["redistributions"] = redistributions;
+  entry["marker_sub_steps"] = markers.sub_steps;
+  entry["marker_rejected_sub_steps"] = markers.rejected;
+  entry["marker_evaluations"] = markers.evaluations;
   return entry;
 }
 
@@ -58,7 +61,8 @@ Json vesicles_of(Simulation& simulation) {
   try {
     const std::vector<double> distances = simulation.nearest_distances();
     for (const auto& diagnostics : simulation.measure())
-      list.push_back(vesicle_of(diagnostics, simulation.redistributions(list.size())));
+      list.push_back(
+          vesicle_of(diagnostics, simulation.redistributions(list.size()), simulation.marker_statistics(list.size())));
     for (std::size_t i = 0; distances.size() > 1 && i < distances.size(); ++i)
       list[i]["min_distance"] = finite_or_null(distances[i]);
   } catch (const std::exception&) {
@@ -84,7 +88,8 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   summary["threads"] = omp_get_max_threads();
   summary["steps"] = simulation.steps();
   summary["time"] = simulation.time();
-  summary["time_step"] = simulation.scene().time.step;
+  summary["time_step"] = simulation.time_step();
+  summary["rejected_steps"] = simulation.rejected_steps();
   summary["wall_seconds"] = record.wall_seconds;
   summary["seconds_per_step"] =
       record.steps_taken > 0 ? Json(record.wall_seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);

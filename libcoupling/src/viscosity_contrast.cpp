@@ -34,4 +34,14 @@ void ViscosityContrast::update() {
   fluid::extend_to_ghosts(mu);
 }
 
+void ViscosityContrast::remember() {
+  if (!remembered_) remembered_.emplace(field_->grid());
+  std::copy_n(field_->data(), field_->size(), remembered_->data());
+}
+
+void ViscosityContrast::take_back() {
+  indicator_.clear();
+  std::copy_n(remembered_->data(), remembered_->size(), field_->data());
+}
+
 }  // namespace vesiflow::coupling

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupling/indicator.h"
@@ -27,11 +28,16 @@ class ViscosityContrast {
   void add(std::size_t vesicle, const vesicle::Surface& surface);
   void update();
 
+  /// take_back() brings the field of the last remember() back, and forgets what has been added since the last update().
+  void remember();
+  void take_back();
+
  private:
   std::vector<double> ratios_;
   double least_ = 1.0, greatest_ = 1.0;
   Indicator indicator_;
   std::shared_ptr<fluid::Field<fluid::Cell>> field_;
+  std::optional<fluid::Field<fluid::Cell>> remembered_;
 };
 
 }  // namespace vesiflow::coupling

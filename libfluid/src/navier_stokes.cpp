@@ -23,6 +23,14 @@ void NavierStokes::restore(const FaceVector& velocity, const FaceVector& previou
   stepper_->restore(velocity, previous_velocity, pressure, clock);
 }
 
+void NavierStokes::remember() {
+  stepper_->remember();
+}
+
+void NavierStokes::retry() {
+  stepper_->retry();
+}
+
 void NavierStokes::step(double dt) {
   stepper_->step(dt);
 }

@@ -143,6 +143,7 @@ Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, Boundary
 // From the inner velocity, whatever it is, to a state at time zero.
 void Stepper::start() {
   clock = {};
+  is_remembered_ = false;
   pressure.fill(0.0);
   if (convection_) convection_->fill(0.0);  // not used by the first step, but read
   walls.evaluate(0.0);
@@ -200,6 +201,7 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
   walls.evaluate(clock_.previous_time);  // refuses what it has to before anything is changed
   walls.evaluate(clock_.time);
   clock = clock_;
+  is_remembered_ = false;
   copy(velocity_, velocity);
   copy(previous_, previous);
   copy(pressure_, pressure);
@@ -207,14 +209,39 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
   walls.evaluate(clock.previous_time);
   walls.set_normal_faces(previous);
   walls.fill_ghosts(previous);
+  recompute_convection();
+  walls.evaluate(clock.time);
+  walls.set_normal_faces(velocity);
+  walls.fill_ghosts(velocity);
+}
+
+// From the previous velocity, walls and ghosts included.
+void Stepper::recompute_convection() {
   if (convection_ && clock.steps > 0) {
     convection(previous, *convection_);
   } else if (convection_) {
     convection_->fill(0.0);
   }
+}
+
+void Stepper::remember() {
+  if (!remembered_) remembered_.emplace(Remembered{FaceVector(grid), Field<Cell>(grid), {}});
+  copy(previous, remembered_->previous);
+  copy(pressure, remembered_->pressure);
+  remembered_->clock = clock;
+  is_remembered_ = true;
+}
+
+void Stepper::retry() {
+  if (!is_remembered_ || clock.steps > remembered_->clock.steps + 1) {
+    throw std::logic_error("fluid: retry() goes back by one step at most, to a state that remember() was called at");
+  }
+  if (clock.steps > remembered_->clock.steps) std::swap(velocity, previous);
+  copy(remembered_->previous, previous);
+  copy(remembered_->pressure, pressure);
+  clock = remembered_->clock;
+  recompute_convection();
   walls.evaluate(clock.time);
-  walls.set_normal_faces(velocity);
-  walls.fill_ghosts(velocity);
 }
 
 void Stepper::step(double dt) {

@@ -24,6 +24,8 @@ class Stepper {
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                const FluidClock& clock);
   void step(double dt);
+  void remember();
+  void retry();
   std::string velocity_solver_name() const;
 
   Grid grid;
@@ -38,6 +40,13 @@ class Stepper {
   std::unique_ptr<EllipticSolver> velocity_solver, pressure_solver;
 
  private:
+  // What a step overwrites; it leaves the velocity that it starts from.
+  struct Remembered {
+    FaceVector previous;
+    Field<Cell> pressure;
+    FluidClock clock;
+  };
+
   bool variable_viscosity() const { return !parameters.viscosity.is_constant(); }
   double previous_step() const { return clock.steps > 0 ? clock.time_step : 0.0; }
   bool implicit_stress() const {
@@ -47,6 +56,7 @@ class Stepper {
   void solve_stokes(double dt);
   void start();
   void make_divergence_free();
+  void recompute_convection();
   void update_velocity_solver(double a);
   void form_right_hand_side(const StepCoefficients& coefficients, double dt);
   void add_explicit_stress();
@@ -60,6 +70,8 @@ class Stepper {
   std::optional<FaceVector> lift_;          // zero but for walls and ghosts, if the stress is implicit
   std::optional<StokesSolver> stokes_;      // if there is no inertia
   Field<Cell> chi_;
+  std::optional<Remembered> remembered_;
+  bool is_remembered_ = false;  // whether remembered_ is of this run, and not of one before set_velocity() or restore()
 };
 
 }  // namespace vesiflow::fluid

@@ -13,6 +13,8 @@
 namespace vesiflow::vesicle {
 namespace {
 
+constexpr int curvature_degrees = 10;
+
 void check_target(const std::optional<double>& target, const char* name) {
   if (target) check_argument(std::isfinite(*target) && *target > 0, name, *target, "finite and > 0");
 }
@@ -25,7 +27,8 @@ ConservationProjection::ConservationProjection(const SphereGrid& grid, const Con
   check_target(conserved.volume, "target volume");
   check_target(conserved.area, "target area");
   check_argument(smoothing_degrees >= 0, "smoothing_degrees", smoothing_degrees, ">= 0");
-  if (smoothing_degrees > 0) smoothing_.emplace(std::min(smoothing_degrees, grid.latitudes()), grid);
+  if (conserved.area) curvature_filter_.emplace(std::min(curvature_degrees, grid.latitudes()), grid, 1);
+  if (smoothing_degrees > 0) displacement_filter_.emplace(std::min(smoothing_degrees, grid.latitudes()), grid);
 }
 
 double ConservationProjection::independence(const Surface& surface) {
@@ -34,20 +37,43 @@ double ConservationProjection::independence(const Surface& surface) {
   return 1 - mixed * mixed / (surface.area() * (h.square() * surface.area_weight()).sum());
 }
 
-/// int g_i g_j dA of the functions g = (1, 2 H).
-Eigen::Matrix2d ConservationProjection::gram(const Surface& surface) const {
-  const ScalarField& h = surface.mean_curvature();
-  const double mixed = 2 * (h * surface.area_weight()).sum();
-  const double square = 4 * (h.square() * surface.area_weight()).sum();
+/// n and F[2 H] n of the surface before the move; the second only if the area is kept.
+void ConservationProjection::set_directions(const Surface& surface) {
+  along_normal_ = surface.normal();
+  if (!conserved_.area) return;
+  curvature_ = 2 * surface.mean_curvature();
+  curvature_filter_->analysis(curvature_, coefficients_);
+  curvature_filter_->synthesis(coefficients_, curvature_);
+  along_curvature_ = surface.normal().colwise() * curvature_;
+}
+
+/// n and 2 H n cut to the degrees of displacements, in place of those.
+void ConservationProjection::smooth_directions(const Surface& surface) {
+  if (conserved_.area) along_curvature_ = surface.normal().colwise() * (2 * surface.mean_curvature());
+  for (VectorField* direction : {&along_normal_, &along_curvature_}) {
+    if (direction->size() == 0) continue;
+    displacement_filter_->analysis(*direction, displacement_coefficients_);
+    displacement_filter_->synthesis(displacement_coefficients_, *direction);
+  }
+}
+
+/// What the two directions (columns) do to volume and area (rows).
+Eigen::Matrix2d ConservationProjection::rates(const Surface& surface) const {
+  const ScalarField& weight = surface.area_weight();
   Eigen::Matrix2d matrix;
-  matrix << surface.area(), mixed, mixed, square;
+  for (int direction : {0, 1}) {
+    const VectorField& along = direction == 0 ? along_normal_ : along_curvature_;
+    const auto normal = (along * surface.normal()).rowwise().sum();
+    matrix(0, direction) = (normal * weight).sum();
+    matrix(1, direction) = 2 * (surface.mean_curvature() * normal * weight).sum();
+  }
   return matrix;
 }
 
-/// The a and b for which (a + 2 H b) n adds `missing` to the rates of volume and area.
+/// The a and b for which a and b times the two directions add `missing` to the rates of volume and area.
 Eigen::Vector2d ConservationProjection::multipliers(const Surface& surface, const Eigen::Vector2d& missing) const {
-  if (!conserved_.area) return {conserved_.volume ? missing[0] / surface.area() : 0, 0};
-  const Eigen::Matrix2d matrix = gram(surface);
+  if (!conserved_.area) return {conserved_.volume ? missing[0] / surface.flux(along_normal_) : 0, 0};
+  const Eigen::Matrix2d matrix = rates(surface);
   if (!conserved_.volume) return {0, missing[1] / matrix(1, 1)};
   constexpr double independent = 1e-10;
   if (!(matrix.determinant() > independent * matrix(0, 0) * matrix(1, 1)))
@@ -57,41 +83,22 @@ Eigen::Vector2d ConservationProjection::multipliers(const Surface& surface, cons
   return matrix.inverse() * missing;
 }
 
-void ConservationProjection::add(const Surface& surface, const Eigen::Vector2d& multipliers,
-                                 VectorField& motion) const {
-  for (int component = 0; component < 3; ++component) {
-    motion.col(component) += multipliers[0] * surface.normal().col(component);
-    if (multipliers[1] != 0)
-      motion.col(component) += 2 * multipliers[1] * surface.mean_curvature() * surface.normal().col(component);
-  }
-}
-
-/// n and 2 H n, smoothed.
-void ConservationProjection::set_directions(const Surface& surface) {
-  along_normal_ = surface.normal();
-  if (conserved_.area) {
-    along_curvature_.resize(along_normal_.rows(), 3);
-    for (int component = 0; component < 3; ++component)
-      along_curvature_.col(component) = 2 * surface.mean_curvature() * surface.normal().col(component);
-  }
-  if (!smoothing_) return;
-  for (VectorField* direction : {&along_normal_, &along_curvature_}) {
-    if (direction->size() == 0) continue;
-    smoothing_->analysis(*direction, coefficients_);
-    smoothing_->synthesis(coefficients_, *direction);
-  }
+void ConservationProjection::add(const Eigen::Vector2d& multipliers, VectorField& motion) const {
+  motion += multipliers[0] * along_normal_;
+  if (multipliers[1] != 0) motion += multipliers[1] * along_curvature_;
 }
 
 void ConservationProjection::correct_velocity(const Surface& surface, double dt, VectorField& velocity) {
   check_argument(std::isfinite(dt) && dt > 0, "dt", dt, "finite and > 0");
   check_markers(velocity, "velocity", surface.grid().size());
   check_finite(velocity, "a velocity");
+  set_directions(surface);
   Eigen::Vector2d missing = Eigen::Vector2d::Zero();
   if (conserved_.volume) missing[0] = (*conserved_.volume - surface.volume()) / dt - surface.flux(velocity);
   if (conserved_.area) missing[1] = (*conserved_.area - surface.area()) / dt - area_rate(surface, velocity);
   if (!missing.allFinite())
     throw std::domain_error("the correction of the velocity would not be finite: is the time step too small?");
-  add(surface, multipliers(surface, missing), velocity);
+  add(multipliers(surface, missing), velocity);
 }
 
 void ConservationProjection::correct_displacement(const Surface& surface, VectorField& displacement) {
@@ -99,6 +106,7 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
   if (!conserved_.volume && !conserved_.area) return;
   if (!moved_) moved_.emplace(grid_);
   set_directions(surface);
+  if (displacement_filter_) smooth_directions(surface);
   // The matrix is that of the surface before the move: the error falls by a factor of the size of D in each iteration.
   constexpr int max_iterations = 50;
   constexpr double tolerance = 1e-13;
@@ -120,9 +128,7 @@ void ConservationProjection::correct_displacement(const Surface& surface, Vector
     if (error < tolerance) return;
     if (!(error < divergence * smallest_error)) break;
     smallest_error = std::min(smallest_error, error);
-    const Eigen::Vector2d by = multipliers(surface, missing);
-    displacement += by[0] * along_normal_;
-    if (by[1] != 0) displacement += by[1] * along_curvature_;
+    add(multipliers(surface, missing), displacement);
   }
   throw std::domain_error(
       "corrections of the displacement do not lead to the volume and area that were asked for: the displacement is too "

@@ -17,6 +17,8 @@ const MembraneParameters& checked(const MembraneParameters& p) {
   check_argument(std::isfinite(p.spontaneous_curvature), "spontaneous_curvature", p.spontaneous_curvature, "finite");
   check_argument(std::isfinite(p.area_stiffness) && p.area_stiffness >= 0, "area_stiffness", p.area_stiffness,
                  "finite and >= 0");
+  check_argument(p.strain_relaxation > 0 && p.strain_relaxation <= 1, "strain_relaxation", p.strain_relaxation,
+                 "in (0, 1]");
   check_argument(p.normal_degrees >= 0, "normal_degrees", p.normal_degrees, ">= 0 (0: the 2N/3 rule)");
   check_argument(p.tangential_degrees >= 1, "tangential_degrees", p.tangential_degrees, ">= 1");
   return p;
@@ -41,6 +43,11 @@ Membrane::Membrane(const VectorField& initial_positions, int latitudes, const Me
                                                         parameters.laplacian});
   if (parameters.sigma0 > 0)
     tension_force_.emplace(TensionParameters{parameters.sigma0, parameters.tension_law, parameters.tension_form});
+  if (tension_force_ && parameters.integral_tension.rate != 0) {
+    integral_.emplace(surface_.grid(), parameters.integral_tension);
+    integral_tension_ = ScalarField::Zero(surface_.grid().size());
+  }
+  if (relaxes_strain()) lagged_strain_ = ScalarField::Zero(surface_.grid().size());
   update_geometry();
   constexpr double rounding = 1e-12;  // a flat shape encloses that much
   if (!(surface_.volume() > rounding * std::pow(surface_.area(), 1.5))) {
@@ -77,7 +84,7 @@ const VectorField& Membrane::compute_force() {
   force_.setZero();
   if (bending_) bending_->add_to(surface_, force_);
   if (tension_force_) {
-    tension_force_->evaluate(surface_, target_areas_, tension_);
+    evaluate_tension();
     tension_force_->add_to(surface_, tension_, force_);
   }
   if (parameters_.volume == VolumeControl::penalty)
@@ -87,16 +94,35 @@ const VectorField& Membrane::compute_force() {
   return force_;
 }
 
+void Membrane::evaluate_tension() {
+  if (relaxes_strain()) {
+    // Not kept before the step ends: forces may be asked for twice.
+    const double a = parameters_.strain_relaxation;
+    strain_ = (1 - a) * lagged_strain_ + a * (surface_.area_weight() / target_areas_).log();
+    tension_force_->evaluate(strain_, tension_);
+  } else {
+    tension_force_->evaluate(surface_, target_areas_, tension_);
+  }
+  if (integral_) tension_ += parameters_.sigma0 * integral_tension_;
+}
+
 void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorField& filtered) {
   filter_.apply(surface_, velocity, filtered);
   if (conservation_) conservation_->correct_velocity(surface_, dt, filtered);
+}
+
+void Membrane::correct_displacement(VectorField& displacement) {
+  if (conservation_) conservation_->correct_displacement(surface_, displacement);
 }
 
 void Membrane::advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
                        double dt) {
   check_markers(new_positions, "new_positions", positions_.rows());
   check_finite(new_positions, "a new position");
+  if (relaxes_strain() || integral_) strain_ = (surface_.area_weight() / target_areas_).log();
   if (tension_force_) target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
+  if (relaxes_strain()) lagged_strain_ += parameters_.strain_relaxation * (strain_ - lagged_strain_);
+  if (integral_) integral_->advance(strain_, dt, integral_tension_);
   positions_ = new_positions;
 }
 
@@ -116,6 +142,8 @@ RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) 
   for (ScalarField* areas : {&target_areas_, &initial_areas_}) *areas = (surface_.area_weight() / *areas).log();
   redistribution.carry(target_areas_);
   redistribution.carry(initial_areas_);
+  if (relaxes_strain()) redistribution.carry(lagged_strain_);
+  if (integral_) redistribution.carry(integral_tension_);
   positions_ = redistribution.positions();
   update_geometry();
   for (ScalarField* areas : {&target_areas_, &initial_areas_}) {
@@ -134,6 +162,7 @@ double Membrane::energy() const {
 double Membrane::elastic_energy() const {
   double sum = 0;
   if (tension_force_) sum += tension_force_->energy(surface_, target_areas_);
+  if (integral_) sum += parameters_.sigma0 * IntegralTension::energy(surface_, target_areas_, integral_tension_);
   if (parameters_.volume == VolumeControl::penalty)
     sum += volume_penalty_energy(surface_, parameters_.volume_stiffness, initial_volume_);
   if (parameters_.area == AreaControl::penalty)
@@ -142,7 +171,7 @@ double Membrane::elastic_energy() const {
 }
 
 MembraneState Membrane::state() const {
-  return {positions_, target_areas_, initial_areas_, initial_volume_};
+  return {positions_, target_areas_, initial_areas_, initial_volume_, lagged_strain_, integral_tension_};
 }
 
 void Membrane::restore(const MembraneState& state) {
@@ -154,12 +183,18 @@ void Membrane::restore(const MembraneState& state) {
   check_areas(state.initial_areas, "an initial area");
   check_argument(std::isfinite(state.initial_volume) && state.initial_volume > 0, "initial_volume",
                  state.initial_volume, "finite and > 0");
+  check_markers(state.lagged_strain, "lagged_strain", lagged_strain_.rows());
+  check_markers(state.integral_tension, "integral_tension", integral_tension_.rows());
+  check_argument(state.lagged_strain.isFinite().all(), "lagged_strain", "a value that is not finite", "finite");
+  check_argument(state.integral_tension.isFinite().all(), "integral_tension", "a value that is not finite", "finite");
   surface_.update(state.positions, detail());
   positions_ = state.positions;
   target_areas_ = state.target_areas;
   initial_areas_ = state.initial_areas;
   initial_area_ = initial_areas_.sum();
   initial_volume_ = state.initial_volume;
+  lagged_strain_ = state.lagged_strain;
+  integral_tension_ = state.integral_tension;
   conserve();
 }
 

@@ -28,6 +28,13 @@ void TensionForce::evaluate(const Surface& surface, const ScalarField& target_ar
     tension = parameters_.sigma0 * (areas / target_areas - 1);
 }
 
+void TensionForce::evaluate(const ScalarField& strain, ScalarField& tension) const {
+  if (parameters_.law == TensionLaw::logarithmic)
+    tension = parameters_.sigma0 * strain * (-strain).exp();
+  else
+    tension = parameters_.sigma0 * (strain.exp() - 1);
+}
+
 void TensionForce::add_to(const Surface& surface, const ScalarField& tension, VectorField& force) {
   check_markers(tension, "tension", surface.grid().size());
   check_markers(force, "force", surface.grid().size());

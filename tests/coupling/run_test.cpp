@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
+#include "coupling/marker_integrator.h"
 #include "small_scene.h"
 
 namespace vesiflow::coupling {
@@ -66,9 +68,12 @@ void expect_same_state(const fs::path& a, const fs::path& b, const Scene& scene)
     EXPECT_TRUE((x.vesicles[i].membrane.positions == y.vesicles[i].membrane.positions).all());
     EXPECT_TRUE((x.vesicles[i].membrane.target_areas == y.vesicles[i].membrane.target_areas).all());
     EXPECT_TRUE((x.vesicles[i].membrane.initial_areas == y.vesicles[i].membrane.initial_areas).all());
+    EXPECT_TRUE((x.vesicles[i].membrane.lagged_strain == y.vesicles[i].membrane.lagged_strain).all());
+    EXPECT_TRUE((x.vesicles[i].membrane.integral_tension == y.vesicles[i].membrane.integral_tension).all());
     EXPECT_EQ(x.vesicles[i].motion_history, y.vesicles[i].motion_history);
     EXPECT_EQ(x.vesicles[i].redistributions, y.vesicles[i].redistributions);
   }
+  EXPECT_EQ(x.step_control, y.step_control);
 }
 
 void compare_restart(const fs::path& folder, const Overrides& overrides, int threads,
@@ -166,6 +171,48 @@ TEST_F(RunTest, RestartContinuesBitForBitWithVesiclesOfTheirOwnViscosity) {
   run_scene(half, at("parts"));
   run_scene(scene, at("parts"), at("parts") / "checkpoint.h5");
   expect_same_state(at("whole") / "checkpoint.h5", at("parts") / "checkpoint.h5", scene);
+}
+
+TEST_F(RunTest, RestartContinuesBitForBitWithWhatTheTensionRemembers) {
+  compare_restart(folder_, {"time.markers=strain_relaxation", "membrane.integral_rate=2"}, 2);
+}
+TEST_F(RunTest, RestartContinuesBitForBitWithArkode) {
+  if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
+  compare_restart(folder_, {"time.markers=arkode", "time.fluid_velocity=interpolated"}, 2);
+}
+
+/// With refused steps, and with a history of the integrator beside that of the error.
+TEST_F(RunTest, RestartContinuesBitForBitWithAdaptiveSteps) {
+  fs::create_directories(folder_);
+  for (const char* markers : {"time.markers=euler", "time.markers=ab2", "time.markers=strain_relaxation"}) {
+    const Scene scene =
+        small_scene({"time.adaptive=true", "time.tolerance=2e-5", "limits.area_error=2e-4", "membrane.g=2", markers});
+    Simulation whole(scene), continued(scene);
+    for (int i = 0; i < 12; ++i) whole.step();
+    EXPECT_GT(whole.rejected_steps(), 0);
+    write_checkpoint(at("middle.h5"), whole);
+    while (!whole.finished()) whole.step();
+    write_checkpoint(at("whole.h5"), whole);
+    restore_checkpoint(at("middle.h5"), continued);
+    while (!continued.finished()) continued.step();
+    write_checkpoint(at("continued.h5"), continued);
+    expect_same_state(at("whole.h5"), at("continued.h5"), scene);
+  }
+}
+
+TEST_F(RunTest, AdaptiveRunWritesEachIntervalOnce) {
+  run_scene(small_scene({"time.adaptive=true", "time.tolerance=4e-5", "output.diagnostics_every=0.05"}), at("run"));
+  std::istringstream table(text_of(at("run") / "diagnostics.csv"));
+  std::string row;
+  std::getline(table, row);
+  std::vector<double> times;
+  while (std::getline(table, row)) times.push_back(std::stod(row.substr(row.find(',') + 1)));
+  ASSERT_EQ(times.size(), 11U);
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    EXPECT_GE(times[k], 0.05 * static_cast<double>(k) - 1e-9);
+    EXPECT_LT(times[k], 0.05 * static_cast<double>(k + 1) - 1e-9);
+  }
+  EXPECT_DOUBLE_EQ(times.back(), 0.5);
 }
 
 TEST_F(RunTest, RestartContinuesTheFilesOfItsFolder) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "coupling/errors.h"
+#include "coupling/marker_integrator.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -124,7 +125,7 @@ TEST(Scene, RefusesUnknownKeysAndSuggestsOne) {
 }
 
 TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
-  expect_parts(message_of(sphere, {"time.step=0.2"}), {"time.step = 0.2", "g =", "time.step <="});
+  expect_parts(message_of(sphere, {"time.markers=euler", "time.step=0.2"}), {"time.step = 0.2", "g =", "time.step <="});
   expect_parts(message_of(sphere, {"time.step=100", "time.end=1000", "membrane.sigma0=0"}), {"time.step", "0.25"});
   expect_parts(message_of(sphere, {"time.step=9"}), {"time.step = 9", "time.end"});
   expect_parts(message_of(sphere, {"vesicles.0.centre=[5.5, 0, 0]"}), {"vesicles.0.centre", "along x", "walls"});
@@ -182,7 +183,7 @@ TEST(Scene, VesiclesHaveTheirOwnPropertiesOrThoseOfAll) {
   EXPECT_EQ(to_toml(parse(to_toml(scene))), to_toml(scene));
   const std::string few = sphere + "latitudes = 10\n";
   expect_parts(message_of(few), {"mesh.tangential_degrees = 15", "vesicles.0.latitudes = 10"});
-  expect_parts(message_of(sphere, {"vesicles.0.sigma0=1e4"}), {"time.step", "g =", "sigma0 <="});
+  expect_parts(message_of(sphere, {"time.markers=euler", "vesicles.0.sigma0=1e4"}), {"time.step", "g =", "sigma0 <="});
 }
 
 // A vesicle that reaches out of a periodic side comes in at the other, where another one may be; or itself.
@@ -195,6 +196,21 @@ TEST(Scene, VesiclesOverlapThroughPeriodicSidesToo) {
                           "cells = [12, 64, 64]\n" +
                           sphere),
                {"vesicles.0 and vesicles.0 (repeated", "enlarge the box"});
+}
+
+TEST(Scene, RefusesTimeKeysThatDoNotGoTogether) {
+  expect_parts(message_of(sphere, {"time.fluid_velocity=interpolated"}), {"time.fluid_velocity", "arkode"});
+  expect_parts(message_of(sphere, {"time.markers=strain_relaxation", "membrane.sigma0=0"}), {"membrane.sigma0 > 0"});
+  expect_parts(message_of(sphere, {"time.markers=strain_relaxation", "time.relaxation=0.0"}), {"in (0, 1]"});
+  expect_parts(message_of(sphere, {"time.adaptive=yes"}), {"time.adaptive", "true or false"});
+  // Relaxation allows for (2 - a)/a times the tension number.
+  expect_parts(message_of(sphere, {"time.markers=euler", "time.step=1/64"}), {"accepted"});
+  expect_parts(message_of(sphere, {"time.markers=euler", "time.step=1/24"}), {"time.step = 0.041", "(7)"});
+  expect_parts(message_of(sphere, {"time.step=1/24", "time.markers=strain_relaxation"}), {"accepted"});
+  expect_parts(message_of(sphere, {"time.step=1/24", "membrane.integral_rate=5"}),
+               {"membrane.integral_rate = 5", "shape_following"});
+  if (!have_sundials())
+    expect_parts(message_of(sphere, {"time.markers=arkode"}), {"time.markers", "VESIFLOW_WITH_SUNDIALS"});
 }
 
 TEST(Scene, RefusesFilesThatCannotBeReadOrAreNotToml) {

@@ -31,6 +31,7 @@ inline Scene shape_modes_scene(double half, int cells, int latitudes, double rat
   scene.membrane.sigma0 =
       100.0;  // transients die as exp(-63 t) or faster; the rate is 2e-4 lower than with infinite sigma0
   scene.mesh.latitudes = latitudes;
+  scene.time.markers = "euler";
   scene.time.step = 1.0 / 96.0;
   VesicleScene vesicle;
   vesicle.shape = Shape::harmonics;

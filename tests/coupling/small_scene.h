@@ -18,6 +18,7 @@ g = "25/6"
 [mesh]
 latitudes = 16
 [time]
+markers = "euler"
 step = "1/96"
 end = 0.5
 [output]
@@ -52,6 +53,7 @@ acceleration = [0, 0, -1]
 range = 0.4
 strength = 20
 [time]
+markers = "euler"
 step = "1/96"
 end = 0.5
 [output]

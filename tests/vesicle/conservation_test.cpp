@@ -84,7 +84,7 @@ TEST_F(Conservation, CorrectedDisplacementIsExact) {
   }
 }
 
-/// The correction is along span{n, 2 H n} and so leaves tangential motions alone.
+/// The correction is along the normal and so leaves tangential motions alone.
 TEST_F(Conservation, CorrectionIsAlongTheNormal) {
   VectorField corrected = motion;
   ConservationProjection(surface.grid(), {surface.volume(), surface.area()}).correct_velocity(surface, 0.1, corrected);
@@ -95,6 +95,29 @@ TEST_F(Conservation, CorrectionIsAlongTheNormal) {
     EXPECT_LT((change.col(component) - normal * surface.normal().col(component)).abs().maxCoeff(), 1e-15);
 }
 
+/// Noise of the markers must not be fed back: the correction holds the degrees of the shape below 10, and those of its normal.
+TEST_F(Conservation, CorrectionDoesNotAmplifyNoise) {
+  VectorField noisy = surface.positions();
+  const SphereGrid& grid = surface.grid();
+  Coefficients coefficients(latitudes, 1);
+  coefficients.set_zero();
+  coefficients(0, 20, 7) = 1e-4;
+  ScalarField noise(grid.size());
+  SphericalHarmonics(latitudes, grid).synthesis(coefficients, noise);
+  for (int component = 0; component < 3; ++component) noisy.col(component) += noise * surface.normal().col(component);
+  const auto correction = [&](const VectorField& positions) {
+    surface.update(positions);
+    VectorField displacement = VectorField::Zero(grid.size(), 3);
+    ConservationProjection(grid, {surface.volume(), 1.001 * surface.area()})
+        .correct_displacement(surface, displacement);
+    return ScalarField((displacement * surface.normal()).rowwise().sum());
+  };
+  const VectorField smooth = surface.positions();
+  const ScalarField change = correction(noisy) - correction(smooth);
+  // H of the noise is 20^2/2 times the noise; a correction along it would hold that times b of about 1e-3.
+  EXPECT_LT(change.abs().maxCoeff(), 0.02 * noise.abs().maxCoeff());
+}
+
 TEST_F(Conservation, SayWhyASphereCannotKeepBoth) {
   surface.update(sphere(surface.grid()));
   ConservationProjection both(surface.grid(), {surface.volume(), surface.area()});
@@ -103,7 +126,81 @@ TEST_F(Conservation, SayWhyASphereCannotKeepBoth) {
   EXPECT_NO_THROW(volume.correct_velocity(surface, 0.1, motion));
 }
 
+/// With smooth directions volume and area come out as exactly, and what is added has few degrees and is still along the normal as
+/// far as those tell.
+TEST_F(Conservation, SmoothedDisplacementIsExactAndOfFewDegrees) {
+  constexpr int degrees = 5;
+  for (const Conserved& target :
+       {Conserved{1.005 * surface.volume(), std::nullopt}, Conserved{std::nullopt, 1.005 * surface.area()},
+        Conserved{surface.volume(), surface.area()}}) {
+    VectorField displacement = motion, plain = motion;
+    ConservationProjection(surface.grid(), target, degrees).correct_displacement(surface, displacement);
+    ConservationProjection(surface.grid(), target).correct_displacement(surface, plain);
+    Surface after(latitudes);
+    after.update(surface.positions() + displacement);
+    if (target.volume) {
+      EXPECT_NEAR(after.volume() / *target.volume, 1, 2e-13);
+    }
+    if (target.area) {
+      EXPECT_NEAR(after.area() / *target.area, 1, 2e-13);
+    }
+    const auto high_degrees = [&](const VectorField& added) {
+      Coefficients coefficients(latitudes, 3);
+      SphericalHarmonics(latitudes, surface.grid()).analysis(added, coefficients);
+      double largest = 0;
+      for (int field = 0; field < 3; ++field)
+        for (int n = degrees; n < latitudes; ++n)
+          for (int m = 0; m <= n; ++m) largest = std::max(largest, std::abs(coefficients(field, n, m)));
+      return largest / added.abs().maxCoeff();
+    };
+    EXPECT_LT(high_degrees(displacement - motion), 1e-12);
+    EXPECT_GT(high_degrees(plain - motion), 1e-3);  // which is what smoothing is for
+    const VectorField added = displacement - motion;
+    const ScalarField normal = (added * surface.normal()).rowwise().sum();
+    EXPECT_GT(surface.integral(ScalarField(normal.square())),
+              0.9 * surface.integral(ScalarField(added.square().rowwise().sum())));
+  }
+}
+
+/// For n and 2 H n cut to all degrees that a smooth shape has, the corrections are those without cutting but for F.
+TEST_F(Conservation, SmoothingWithAllDegreesChangesNothingOfVolumes) {
+  const Conserved target{1.005 * surface.volume(), std::nullopt};
+  VectorField all = motion, plain = motion;
+  ConservationProjection(surface.grid(), target, latitudes).correct_displacement(surface, all);
+  ConservationProjection(surface.grid(), target).correct_displacement(surface, plain);
+  // n has degrees beyond the grid's, falling like (b/c)^n from one to the next.
+  EXPECT_LT((all - plain).abs().maxCoeff(), 1e-4 * (plain - motion).abs().maxCoeff());
+}
+
+/// 1 - (int H)^2 / (A int H^2) on a spheroid of axes 1, 1, c, by quadrature of the closed form of H over its generatrix.
+TEST_F(Conservation, IndependenceIsTheVarianceOfTheCurvature) {
+  Surface spheroid_surface(64);
+  const double c = 2;
+  spheroid_surface.update(spheroid(spheroid_surface.grid(), c));
+  double area = 0, first = 0, second = 0;
+  constexpr int points = 4000;
+  for (int i = 0; i < points; ++i) {
+    const double theta = (i + 0.5) * M_PI / points, s = std::sin(theta), co = std::cos(theta);
+    const testing::EllipsoidPoint at({1, 1, c}, {s, 0, c * co});
+    const double weight = s * std::hypot(co, c * s);
+    area += weight;
+    first += weight * at.mean_curvature;
+    second += weight * at.mean_curvature * at.mean_curvature;
+  }
+  EXPECT_NEAR(ConservationProjection::independence(spheroid_surface), 1 - first * first / (area * second), 1e-6);
+  EXPECT_GT(ConservationProjection::independence(spheroid_surface), 0.05);
+  spheroid_surface.update(sphere(spheroid_surface.grid(), {.effective_radius = 0.7}));
+  EXPECT_NEAR(ConservationProjection::independence(spheroid_surface), 0, 1e-13);
+  // Of second order in the deviation from a sphere.
+  const auto near_sphere = [&](double deviation) {
+    spheroid_surface.update(spheroid(spheroid_surface.grid(), 1 + deviation));
+    return ConservationProjection::independence(spheroid_surface);
+  };
+  EXPECT_NEAR(near_sphere(2e-3) / near_sphere(1e-3), 4, 0.02);
+}
+
 TEST_F(Conservation, RefusesBadArguments) {
+  EXPECT_THROW(ConservationProjection(surface.grid(), {}, -1), std::invalid_argument);
   EXPECT_THROW(ConservationProjection(surface.grid(), {0.0, std::nullopt}), std::invalid_argument);
   EXPECT_THROW(ConservationProjection(surface.grid(), {1.0, std::nan("")}), std::invalid_argument);
   ConservationProjection projection(surface.grid(), {surface.volume(), std::nullopt});

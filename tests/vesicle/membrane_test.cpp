@@ -91,19 +91,70 @@ TEST(Membrane, TargetAreasRestWithoutTension) {
 }
 
 TEST(Membrane, RestartRepeatsTheRunBitForBit) {
-  Membrane straight(start(), latitudes, {});
-  for (int k = 0; k < 3; ++k) step(straight);
-  const MembraneState state = straight.state();
-  Membrane resumed(start(), latitudes, {});
-  resumed.restore(state);
-  for (int k = 0; k < 3; ++k) {
-    step(straight);
-    step(resumed);
+  const MembraneParameters remembering{.strain_relaxation = 0.25, .integral_tension = {.rate = 2}};
+  for (const MembraneParameters& parameters : {MembraneParameters{}, remembering}) {
+    Membrane straight(start(), latitudes, parameters);
+    for (int k = 0; k < 3; ++k) step(straight);
+    const MembraneState state = straight.state();
+    Membrane resumed(start(), latitudes, parameters);
+    resumed.restore(state);
+    for (int k = 0; k < 3; ++k) {
+      step(straight);
+      step(resumed);
+    }
+    EXPECT_TRUE((straight.positions() == resumed.positions()).all());
+    EXPECT_TRUE((straight.target_areas() == resumed.target_areas()).all());
+    EXPECT_TRUE((straight.force() == resumed.force()).all());
+    EXPECT_TRUE((straight.tension() == resumed.tension()).all());
+    EXPECT_EQ(straight.initial_area(), resumed.initial_area());
   }
-  EXPECT_TRUE((straight.positions() == resumed.positions()).all());
-  EXPECT_TRUE((straight.target_areas() == resumed.target_areas()).all());
-  EXPECT_TRUE((straight.force() == resumed.force()).all());
-  EXPECT_EQ(straight.initial_area(), resumed.initial_area());
+}
+
+/// A mesh that does not move with the material: areas are those of the shape and of the strain that comes with it.
+TEST(Membrane, MoveToTakesShapeAndStrain) {
+  Membrane membrane(start(), latitudes, {});
+  const double initial_area = membrane.initial_area();
+  const VectorField shape = start() + 0.03 * testing::smooth_vector(membrane.surface().grid(), 4, 93);
+  const ScalarField strain = 0.02 * testing::smooth_scalar(membrane.surface().grid(), 5, 94);
+  membrane.move_to(shape, strain);
+  EXPECT_TRUE((membrane.positions() == shape).all());
+  Surface moved(latitudes);
+  moved.update(shape);
+  EXPECT_TRUE(
+      (membrane.surface().area_weight() == moved.area_weight()).all());  // the geometry is that of the new shape
+  EXPECT_LT(((moved.area_weight() / membrane.target_areas()).log() - strain).abs().maxCoeff(), 1e-14);
+  EXPECT_LT((membrane.target_areas() - moved.area_weight() * (-strain).exp()).abs().maxCoeff(), 1e-16);
+  EXPECT_EQ(membrane.initial_area(), initial_area);
+  EXPECT_NEAR(membrane.initial_areas().sum(), initial_area, 1e-13);
+  const ScalarField ratio = membrane.initial_areas() / membrane.target_areas();
+  EXPECT_LT(ratio.maxCoeff() - ratio.minCoeff(), 1e-14);
+  // sigma = sigma0 ln J / J of Eq. (31) then has J = e^strain.
+  membrane.compute_force();
+  const ScalarField tension = membrane.parameters().sigma0 * strain * (-strain).exp();
+  EXPECT_LT((membrane.tension() - tension).abs().maxCoeff(), 1e-10);
+  // There and back.
+  membrane.move_to(start(), ScalarField::Zero(shape.rows()));
+  EXPECT_TRUE((membrane.target_areas() == membrane.surface().area_weight()).all());
+  EXPECT_EQ(membrane.initial_area(), initial_area);
+}
+
+TEST(Membrane, AFailingMoveToLeavesTheStateAlone) {
+  Membrane membrane(start(), latitudes, {});
+  const MembraneState before = membrane.state();
+  const ScalarField strain = ScalarField::Constant(before.positions.rows(), 0.01);
+  const auto unchanged = [&] {
+    const MembraneState after = membrane.state();
+    return (after.positions == before.positions).all() && (after.target_areas == before.target_areas).all() &&
+           (after.initial_areas == before.initial_areas).all() && after.initial_volume == before.initial_volume;
+  };
+  testing::expect_refused_if_not_finite(strain, [&](const ScalarField& s) { membrane.move_to(start() * 1.1, s); });
+  EXPECT_TRUE(unchanged());
+  testing::expect_refused_if_not_finite(start(), [&](const VectorField& x) { membrane.move_to(x, strain); });
+  EXPECT_TRUE(unchanged());
+  EXPECT_THROW(membrane.move_to(start(), strain.head(5)), std::invalid_argument);
+  EXPECT_THROW(membrane.move_to(start().topRows(5), strain), std::invalid_argument);
+  EXPECT_THROW(membrane.move_to(VectorField::Zero(strain.size(), 3), strain), std::domain_error);
+  EXPECT_TRUE(unchanged());
 }
 
 TEST(Membrane, RefusesBadArguments) {

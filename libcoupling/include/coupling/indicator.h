@@ -41,6 +41,9 @@ class Indicator {
   /// time; the same bits for any number of threads.
   void solve(fluid::Field<fluid::Cell>& field);
 
+  /// Forgets the membranes added since the last time.
+  void clear();
+
  private:
   struct Membrane {
     std::optional<MarkerTransfer> transfer;

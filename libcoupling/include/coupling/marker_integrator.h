@@ -8,32 +8,58 @@
 
 namespace vesiflow::coupling {
 
-/// Velocity of the markers at a given state; both are flat arrays of the same length.
-using MarkerVelocity = std::function<void(std::span<const double> state, std::span<double> velocity)>;
+/// Velocity of the markers at a given state; both are flat arrays of the same length. `fraction` is the place in the step,
+/// from 0 at its start to 1 at its end: one-stage methods ask at 1, where the fluid velocity is the newest.
+using MarkerVelocity = std::function<void(double fraction, std::span<const double> state, std::span<double> velocity)>;
 
-/// Advances markers by dX/dt = U(X), X a flat array. Knows neither vesicle nor grid. Histories belong to the
-/// integrator: it starts itself, starts afresh when the time step changes, and its history can be saved and restored.
+/// What the steps so far took.
+struct MarkerStatistics {
+  long sub_steps = 0;    ///< accepted ones; one in each step unless the integrator chooses its own
+  long rejected = 0;     ///< sub-steps repeated for their error
+  long evaluations = 0;  ///< of the velocity
+};
+
+/// Advances markers by dX/dt = U(t, X), X a flat array. Knows neither vesicle nor grid. Histories belong to the
+/// integrator: it starts itself, follows a changing time step, and its history can be saved and restored.
 class MarkerIntegrator {
  public:
   virtual ~MarkerIntegrator() = default;
 
-  /// Replaces `state` at time t by the state at t + dt.
+  /// Replaces `state` at time t by the state at t + dt. What `velocity` throws comes through, the state is then lost.
+  /// \throws std::domain_error when the integrator fails
   virtual void advance(double dt, const MarkerVelocity& velocity, std::span<double> state) = 0;
 
-  /// What a continued run needs besides the state; empty where there is nothing.
+  /// What a continued run needs besides the state; empty where there is nothing. `dt` is the length of the step that left it.
   virtual std::span<const double> history() const { return {}; }
   virtual void restore_history(double /*dt*/, std::span<const double> /*history*/) {}
 
   /// Forgets the history: it belongs to other markers. The next step starts afresh.
   virtual void restart() {}
+
+  virtual MarkerStatistics statistics() const = 0;
 };
 
-/// Integrators a scene can name in `time.markers`.
-inline constexpr std::string_view marker_integrators[] = {"euler", "ab2"};
+/// Ways of advancing markers that a scene can name in `time.markers`; docs/time_integration.md compares them.
+inline constexpr std::string_view marker_integrators[] = {"euler", "ab2", "arkode", "strain_relaxation"};
 
-/// "euler": X + dt U(X), the paper's Step 4, first order; stable for g = dt sigma0/(4 mu h) below 7 to 8.
-/// "ab2":   X + dt (3/2 U^k - 1/2 U^{k-1}), second order, first step Euler; stable for about half of that g.
-/// \throws std::invalid_argument for any other name
-std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size);
+/// Of "arkode": the local error of each sub-step is kept below relative |x| + absolute, root mean square over the state.
+struct MarkerTolerances {
+  double relative = 0.0;   ///< >= 0; 0 because positions have no natural origin
+  double absolute = 1e-6;  ///< > 0
+};
+
+/// "euler":  X + dt U(X), the paper's Step 4, first order; stable for g = dt sigma0/(4 mu h) below 7 to 8.
+/// "ab2":    X + dt [(1 + r/2) U^k - r/2 U^{k-1}], r = dt over the last dt; second order, first step Euler; stable for about
+///           half of that g.
+/// "arkode": explicit Runge-Kutta of order three with sub-steps of its own choice (Bogacki-Shampine, SUNDIALS' ERKStep);
+///           no history.
+/// "strain_relaxation": markers as "euler", the rest is in the membrane.
+/// \throws std::invalid_argument for any other name, for tolerances out of range, and for "arkode" in a build without
+/// SUNDIALS
+std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size,
+                                                         const MarkerTolerances& tolerances = {});
+
+/// Whether this build has "arkode".
+bool have_sundials();
 
 }  // namespace vesiflow::coupling

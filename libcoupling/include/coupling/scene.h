@@ -23,6 +23,8 @@ enum class Extension { planar, uniaxial };
 enum class FlowStart { flow, rest };
 enum class Shape { sphere, prolate, oblate, ellipsoid, biconcave, harmonics, coefficients, mesh };
 enum class Redistribute { never, when_needed };
+/// The fluid velocity in which markers move through a step: that of its end, or linear in time from its start to its end.
+enum class FluidVelocity { frozen, interpolated };
 
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
 struct VesicleScene {
@@ -96,6 +98,8 @@ struct Scene {
     double spontaneous_curvature = 0.0;  ///< H0, mean of the principal curvatures
     vesicle::TensionLaw tension_law = vesicle::TensionLaw::logarithmic;
     vesicle::TensionForm tension_form = vesicle::TensionForm::divergence;
+    double integral_rate = 0.0;  ///< r of vesicle::IntegralTension; 0: none
+    int integral_degrees = vesicle::IntegralTensionParameters{}.degrees;
     vesicle::AreaControl area = vesicle::AreaControl::none;
     double area_stiffness = 1e5;  ///< c_a, for area = penalty
     vesicle::LaplacianForm laplacian = vesicle::LaplacianForm::cartesian;
@@ -122,10 +126,20 @@ struct Scene {
   struct Time {
     double step = 1.0 / 192.0;
     double end = 8.0;
-    std::string markers = "euler";
+    std::string markers = "shape_following";
+    double relative_tolerance = 0.0;  ///< of markers = arkode
+    double absolute_tolerance = 1e-6;
+    FluidVelocity fluid_velocity = FluidVelocity::frozen;
+    double relaxation = 0.25;  ///< a of markers = strain_relaxation
+    bool adaptive = false;     ///< steps are chosen by their errors; `step` is the first
+    double tolerance = 2e-5;   ///< position error per step, root mean square over the markers, in effective radii
+    double smallest_step = 1e-5;
+    double largest_step = 0.1;
   } time;
   struct Limits {
     double local_area_error = 0.5;  ///< the run stops beyond it
+    double area_error = 1e-3;       ///< relative change of an area that an adaptive step may make
+    double volume_error = 1e-3;     ///< and of a volume
   } limits;
   struct Output {  ///< intervals in time; 0 is never
     double diagnostics_every = 0.05;
@@ -146,11 +160,14 @@ struct Scene {
   /// g = dt sigma0/(4 mu h), the number that decides whether the explicit tension is stable (below 7 to 8), of the stiffest
   /// vesicle.
   double tension_number() const;
+  /// The largest g for which time.markers is stable, cautiously: 7, (2 - a)/a times that with strain relaxation, and infinity
+  /// with shape_following.
+  double stable_tension_number() const;
   /// lambda = mu_i/mu_o of a vesicle: its own, or else that of the fluid.
   double viscosity_ratio(std::size_t vesicle) const;
   /// Whether the viscosity is another one inside some vesicle. If not, there is no field of it and no indicator.
   bool has_viscosity_contrast() const;
-  /// Steps from 0 to time.end, the last one at or just beyond it.
+  /// Steps of equal length from 0 to time.end, the last one at or just beyond it.
   long steps() const;
 };
 

@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "coupling/flow.h"
+#include "coupling/marker_integrator.h"
 #include "coupling/scene.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/diagnostics.h"
@@ -45,10 +47,12 @@ struct SimulationState {
   fluid::Field<fluid::Cell> pressure;
   fluid::FluidClock clock;
   std::vector<VesicleState> vesicles;
+  std::vector<double> step_control;  ///< of adaptive steps; empty if they are equal
 };
 
 struct ImmersedVesicle;
 class ExternalForces;
+class StepControl;
 class ViscosityContrast;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
@@ -66,10 +70,21 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One time step of the scene's length (Steps 1 to 5 of the paper). Every sixteenth step ends with a look at the meshes and,
+  /// One time step (Steps 1 to 5 of the paper), of the scene's length or, if time.adaptive, as long as its errors allow: a step
+  /// whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a look at the meshes and,
   /// where one has passed a limit of the scene, its redistribution along the membrane.
-  /// \throws SimulationStopped when the state is not finite, a limit is passed or a marker meets a wall
+  /// \throws SimulationStopped when the state is not finite, a limit is passed or a marker meets a wall, with adaptive steps
+  /// when that happens, or the errors are too large, at time.smallest_step: the state is then that before the step
   void step();
+
+  /// Whether time.end is reached.
+  bool finished() const;
+  /// Length of the last step; of the first before it.
+  double time_step() const;
+  /// Adaptive steps that were taken back.
+  long rejected_steps() const { return rejected_steps_; }
+  /// What moving the markers took.
+  MarkerStatistics marker_statistics(std::size_t vesicle) const;
 
   double time() const { return fluid_.time(); }
   long steps() const { return static_cast<long>(fluid_.steps()); }
@@ -104,11 +119,16 @@ class Simulation {
  private:
   Simulation(const Scene& scene, const Flow& flow, FlowType type);
 
-  void compute_forces();
+  void take_step(double dt);
+  void take_adaptive_step();
+  bool try_step(double dt, std::string& failure);
+  void remember();
+  void take_back();
+  void compute_forces(double dt);
   void hold_the_fluid();
   void update_viscosity();
-  void advance_fluid();
-  void move_markers();
+  void advance_fluid(double dt);
+  void move_markers(double dt);
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
 
@@ -120,6 +140,9 @@ class Simulation {
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none
   std::vector<Redistribution> last_redistributions_;
   PhaseSeconds seconds_;
+  std::unique_ptr<StepControl> step_control_;  ///< of adaptive steps
+  std::vector<VesicleState> remembered_;       ///< before the step that is tried
+  long rejected_steps_ = 0;
 };
 
 /// The scene's box as a grid.

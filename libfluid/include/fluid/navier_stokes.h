@@ -111,6 +111,13 @@ class NavierStokes {
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                const FluidClock& clock);
 
+  // Remembers the present state, so that the next step can be tried: retry() goes back to it, after a step or one that has
+  // failed, as often as wanted, and the steps that follow are bit for bit those that would have followed (see restore() for
+  // the exceptions). It costs the copies of a velocity and a pressure, and their memory from the first call on. The force is
+  // no part of it. retry() throws std::logic_error if nothing is remembered, or more than one step ago.
+  void remember();
+  void retry();
+
   // Force density (per volume, dimensionless) at the faces, for the coming step. It is kept, not cleared, by
   // step(); only inner faces are read.
   FaceVector& force();
@@ -123,7 +130,7 @@ class NavierStokes {
   // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver
   // for the exception). Throws
   // std::invalid_argument unless dt > 0 is finite and a field of viscosity is > 0, and std::runtime_error, with the step
-  // and the time, if the solution is not finite or a solver has not converged; the state is then lost.
+  // and the time, if the solution is not finite or a solver has not converged; the state is then lost, but for retry().
   void step(double dt);
 
   // Velocity now and one step ago (the same before the first step); faces on walls and ghosts are set from

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "vesicle/coefficients.h"
+#include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
 
@@ -13,23 +15,26 @@ struct Conserved {
   std::optional<double> area;
 };
 
-/// Corrects motions along the normal so that volume and area come out exactly. The correction is a combination of the
-/// derivatives n of the volume and 2 H n of the area: the smallest one in the L2 norm over the membrane. Nothing allocates after the
-/// first correction of each kind.
+/// Corrects motions along the normal so that volume and area come out exactly. The correction is a combination of n, the
+/// derivative of the volume, and F[2 H] n, where 2 H n is the derivative of the area and F keeps the degrees n < 10: the high
+/// degrees of H are noise in a simulation, and moving along them makes more of it, without bound if the area is to grow. For a
+/// shape of few degrees the smallest correction in the L2 norm over the membrane. Nothing allocates after the first correction of
+/// each kind.
 class ConservationProjection {
  public:
-  /// With smoothing_degrees > 0, displacements are corrected along n and 2 H n cut to that many degrees: H is rougher than the
-  /// surface by two derivatives, and what a correction adds at high degrees would feed on itself from step to step.
+  /// With smoothing_degrees > 0, displacements are corrected along n and 2 H n, each component of them cut to that many degrees,
+  /// instead of n and F[2 H] n: the products with n have high degrees again, and what a correction adds at these would feed on
+  /// itself from step to step.
   /// @throws std::invalid_argument unless a given volume and area are finite and > 0 and smoothing_degrees >= 0.
   ConservationProjection(const SphereGrid& grid, const Conserved& conserved, int smoothing_degrees = 0);
 
-  /// Velocity, shape (markers, 3): U += (a + 2 H b) n so that afterwards int U . n dA = -(V - V0)/dt and
+  /// Velocity, shape (markers, 3): U += (a + F[2 H] b) n so that afterwards int U . n dA = -(V - V0)/dt and
   /// int 2 H U . n dA = -(A - A0)/dt; moving with U for dt restores both to O(dt^2).
   /// @throws std::invalid_argument unless dt is finite and > 0; std::domain_error if volume and area cannot both be met because
   /// H is nearly constant (a sphere), or if the velocity or its correction is not finite (the velocity is then as it was).
   void correct_velocity(const Surface& surface, double dt, VectorField& velocity);
 
-  /// Displacement D, shape (markers, 3): D += (a + 2 H b) n, with n and H before the move, so that X + D encloses V0 and has
+  /// Displacement D, shape (markers, 3): D += (a + F[2 H] b) n, with n and H before the move, so that X + D encloses V0 and has
   /// area A0 to a relative 1e-13. Newton's method; meant for D small beside the size of the surface.
   /// @throws std::domain_error as above, or if the iteration does not converge.
   void correct_displacement(const Surface& surface, VectorField& displacement);
@@ -39,18 +44,21 @@ class ConservationProjection {
   static double independence(const Surface& surface);
 
  private:
-  Eigen::Matrix2d gram(const Surface& surface) const;
-  Eigen::Vector2d multipliers(const Surface& surface, const Eigen::Vector2d& missing) const;
-  void add(const Surface& surface, const Eigen::Vector2d& multipliers, VectorField& motion) const;
   void set_directions(const Surface& surface);
+  void smooth_directions(const Surface& surface);
+  Eigen::Matrix2d rates(const Surface& surface) const;
+  Eigen::Vector2d multipliers(const Surface& surface, const Eigen::Vector2d& missing) const;
+  void add(const Eigen::Vector2d& multipliers, VectorField& motion) const;
 
   SphereGrid grid_;
   Conserved conserved_;
-  std::optional<Surface> moved_;  ///< made when a displacement is first corrected
-  std::optional<SphericalHarmonics> smoothing_;
-  Coefficients coefficients_;
+  std::optional<SphericalHarmonics> curvature_filter_;     ///< F, if the area is kept
+  std::optional<SphericalHarmonics> displacement_filter_;  ///< if smoothing_degrees > 0
+  Coefficients coefficients_, displacement_coefficients_;
+  ScalarField curvature_;                       ///< F[2 H]
+  VectorField along_normal_, along_curvature_;  ///< directions of the corrections
+  std::optional<Surface> moved_;                ///< made when a displacement is first corrected
   VectorField positions_;
-  VectorField along_normal_, along_curvature_;  // directions of the corrections of a displacement
 };
 
 }  // namespace vesiflow::vesicle

@@ -5,6 +5,7 @@
 #include "vesicle/area.h"
 #include "vesicle/bending.h"
 #include "vesicle/conservation.h"
+#include "vesicle/integral_tension.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/redistribution.h"
 #include "vesicle/surface.h"
@@ -34,6 +35,9 @@ struct MembraneParameters {
   double sigma0 = 600;               ///< tension stiffness >= 0 of Eq. (31); 0 switches tension off
   TensionLaw tension_law = TensionLaw::logarithmic;
   TensionForm tension_form = TensionForm::divergence;
+  /// a in (0, 1]: the tension is that of the strain s of s^{k+1} = s^k + a (ln J - s^k), a low-pass filter in time; 1: of ln J.
+  double strain_relaxation = 1;
+  IntegralTensionParameters integral_tension = {};  ///< rate 0: none
   LaplacianOptions laplacian = {};
   VolumeControl volume = VolumeControl::projection;
   double volume_stiffness = 0;  ///< c_v >= 0 of Eq. (22), read for VolumeControl::penalty only
@@ -51,6 +55,8 @@ struct MembraneState {
   ScalarField target_areas;   ///< dA0_ij now, (markers)
   ScalarField initial_areas;  ///< dA_ij at t = 0, (markers); their sum is the initial area
   double initial_volume = 0;
+  ScalarField lagged_strain;     ///< s, (markers); empty if strain_relaxation = 1
+  ScalarField integral_tension;  ///< Z, (markers); empty if there is none
 };
 
 /// One vesicle: markers, forces per unit area, and mesh control. A step of a simulation reads
@@ -77,8 +83,13 @@ class Membrane {
   /// @throws as MeshFilter::apply and, with a projection, ConservationProjection::correct_velocity.
   void filter_velocity(const VectorField& velocity, double dt, VectorField& filtered);
 
+  /// Changes a displacement of the markers, shape (markers, 3), so that it ends at the volume and area that are kept by
+  /// projection, to a relative 1e-13: beyond what filter_velocity does for the velocity. Nothing without projections.
+  /// @throws as ConservationProjection::correct_displacement.
+  void correct_displacement(VectorField& displacement);
+
   /// Ends a step: updates the target areas by Eqs. (33) and (32) with the geometry of the old positions
-  /// (skipped for sigma0 = 0), then takes the new positions. The geometry stays the old one until
+  /// (skipped for sigma0 = 0), then lagged strain and integral tension if there are any, then takes the new positions. The geometry stays the old one until
   /// update_geometry(). velocity: interpolated U; filtered: the velocity U~ that moved the markers, as
   /// averaged over the step by the integrator.
   /// @throws std::invalid_argument for a wrong size, std::domain_error if the new positions are not finite or as
@@ -109,10 +120,12 @@ class Membrane {
   const ScalarField& initial_areas() const { return initial_areas_; }
   double initial_area() const { return initial_area_; }
   double initial_volume() const { return initial_volume_; }
+  /// Z of the integral tension; empty if there is none.
+  const ScalarField& integral_tension() const { return integral_tension_; }
 
   /// bending_energy / Ca + E_sigma + penalty energies of the parts that are switched on, at the last geometry.
   double energy() const;
-  /// The same without bending.
+  /// The same without bending. The force is minus its derivative, at fixed Z, unless the strain is relaxed.
   double elastic_energy() const;
 
   MembraneState state() const;
@@ -125,17 +138,21 @@ class Membrane {
   /// Detail of the geometry that every step needs.
   GeometryDetail detail() const;
   void conserve();
+  bool relaxes_strain() const { return tension_force_ && parameters_.strain_relaxation < 1; }
+  void evaluate_tension();
 
   MembraneParameters parameters_;
   Surface surface_;
   std::optional<BendingForce> bending_;
   std::optional<TensionForce> tension_force_;
+  std::optional<IntegralTension> integral_;
   std::optional<ConservationProjection> conservation_;
   MeshFilter filter_;
   TargetAreaUpdate target_area_update_;
 
   VectorField positions_, force_;
   ScalarField tension_, target_areas_, initial_areas_;
+  ScalarField strain_, lagged_strain_, integral_tension_;  // empty where not needed
   double initial_area_ = 0;
   double initial_volume_ = 0;
 };

@@ -37,6 +37,9 @@ class TensionForce {
   /// @throws std::invalid_argument for a wrong number of target areas, or one that is not finite and > 0.
   void evaluate(const Surface& surface, const ScalarField& target_areas, ScalarField& tension) const;
 
+  /// The same for a strain s = ln J that is a field of its own, shape (markers).
+  void evaluate(const ScalarField& strain, ScalarField& tension) const;
+
   /// Adds F_sigma to `force`, shape (markers, 3), force per unit area.
   /// @throws std::invalid_argument for a wrong size, std::domain_error if the tension is not finite (force is as it was).
   void add_to(const Surface& surface, const ScalarField& tension, VectorField& force);

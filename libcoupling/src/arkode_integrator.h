@@ -1,0 +1,12 @@
+#pragma once
+
+#include <memory>
+
+#include "coupling/marker_integrator.h"
+
+namespace vesiflow::coupling {
+
+/// The integrator "arkode" of make_marker_integrator.
+std::unique_ptr<MarkerIntegrator> make_arkode_integrator(std::size_t size, const MarkerTolerances& tolerances);
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,17 @@
+// Stands in for arkode_integrator.cpp in builds without SUNDIALS.
+#include <stdexcept>
+
+#include "arkode_integrator.h"
+
+namespace vesiflow::coupling {
+
+bool have_sundials() {
+  return false;
+}
+
+std::unique_ptr<MarkerIntegrator> make_arkode_integrator(std::size_t, const MarkerTolerances&) {
+  throw std::invalid_argument(
+      "marker integrator 'arkode': this build has no SUNDIALS; configure with -DVESIFLOW_WITH_SUNDIALS=ON");
+}
+
+}  // namespace vesiflow::coupling

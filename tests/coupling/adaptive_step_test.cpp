@@ -1,0 +1,183 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "coupling/errors.h"
+#include "coupling/simulation.h"
+#include "small_scene.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+const Overrides adaptive{"time.adaptive=true", "time.end=0.5"};
+
+Overrides adaptive_with(std::initializer_list<const char*> more) {
+  Overrides overrides = adaptive;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return overrides;
+}
+
+std::vector<double> steps_to_end(Simulation& simulation) {
+  std::vector<double> lengths;
+  while (!simulation.finished()) {
+    simulation.step();
+    lengths.push_back(simulation.time_step());
+  }
+  return lengths;
+}
+
+TEST(AdaptiveStep, EndsOnTimeAndWithinItsLimits) {
+  Simulation simulation(small_scene(adaptive_with({"time.largest_step=0.02"})));
+  const std::vector<double> lengths = steps_to_end(simulation);
+  EXPECT_DOUBLE_EQ(simulation.time(), 0.5);
+  EXPECT_EQ(static_cast<std::size_t>(simulation.steps()), lengths.size());
+  EXPECT_LE(*std::ranges::max_element(lengths), 0.02);
+  for (std::size_t k = 1; k < lengths.size(); ++k) EXPECT_LE(lengths[k], 1.5 * lengths[k - 1] * (1 + 1e-12));
+}
+
+// The error that a step of a scheme of first order adds goes with the square of its length: a sixteenth of the tolerance, four
+// times the steps, and a quarter of the error at the end.
+TEST(AdaptiveStep, StepsAndErrorFollowTheTolerance) {
+  const auto shape_of = [](const Overrides& overrides, long& steps) {
+    Simulation simulation(small_scene(overrides));
+    while (!simulation.finished()) simulation.step();
+    steps = simulation.steps();
+    return simulation.measure().at(0);
+  };
+  // Soft, so that no limit of stability has a say; and no other error either.
+  long coarse_steps = 0, fine_steps = 0, exact_steps = 0;
+  const auto coarse =
+      shape_of(adaptive_with({"membrane.g=0.2", "time.tolerance=6.4e-5", "limits.area_error=1", "time.step=1/96"}),
+               coarse_steps);
+  const auto fine = shape_of(
+      adaptive_with({"membrane.g=0.2", "time.tolerance=4e-6", "limits.area_error=1", "time.step=1/96"}), fine_steps);
+  const auto exact = shape_of({"membrane.g=0.0125", "time.step=1/1536"}, exact_steps);
+  EXPECT_NEAR(static_cast<double>(fine_steps) / static_cast<double>(coarse_steps), 4.0, 1.0);
+  const double coarse_error = std::abs(coarse.inclination_angle - exact.inclination_angle);
+  const double fine_error = std::abs(fine.inclination_angle - exact.inclination_angle);
+  EXPECT_LT(fine_error, 4e-6 * static_cast<double>(fine_steps));  // all errors alike
+  EXPECT_NEAR(std::log2(coarse_error / fine_error), 2.0, 0.7);
+}
+
+// A first step far beyond what the errors allow is taken back, and the run is as if it had not been tried.
+TEST(AdaptiveStep, RefusedStepsLeaveNoTrace) {
+  Simulation tried(small_scene(adaptive_with({"time.tolerance=1e-7", "time.step=0.03", "limits.area_error=2e-4"})));
+  tried.step();
+  EXPECT_GT(tried.rejected_steps(), 0);
+  Simulation direct(small_scene(adaptive_with({"time.tolerance=1e-7", "time.step=0.03", "limits.area_error=2e-4"})));
+  SimulationState state = direct.state();
+  state.step_control[0] = tried.time_step();
+  direct.restore(state);
+  direct.step();
+  EXPECT_EQ(direct.rejected_steps(), 0);
+  EXPECT_EQ(direct.time(), tried.time());
+  EXPECT_TRUE((direct.membrane(0).positions() == tried.membrane(0).positions()).all());
+  EXPECT_TRUE((direct.membrane(0).target_areas() == tried.membrane(0).target_areas()).all());
+  const auto& u = direct.fluid().velocity().x;
+  EXPECT_TRUE(std::equal(u.data(), u.data() + u.size(), tried.fluid().velocity().x.data()));
+}
+
+Scene with_contrast(const Overrides& overrides) {
+  Overrides all{"fluid.viscosity_ratio=5"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  return small_scene(all);
+}
+
+// The same where the fluid's viscosity follows the vesicle, in every treatment of it, and where vesicles of their own
+// properties sink and repel each other in a periodic box: the trial step is made of the state it starts from and nothing else.
+TEST(AdaptiveStep, RefusedStepsLeaveNoTraceInViscosityAndExternalForces) {
+  const auto compare = [](Scene (*make_scene)(const Overrides&), std::initializer_list<const char*> more) {
+    Overrides overrides{"time.adaptive=true", "time.tolerance=1e-7", "time.step=0.03", "limits.area_error=1e-4"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    const Scene scene = make_scene(overrides);
+    Simulation tried(scene), direct(scene);
+    for (int step = 0; step < 2; ++step) {
+      const long rejected = tried.rejected_steps();
+      SimulationState state = tried.state();
+      tried.step();
+      EXPECT_GT(tried.rejected_steps() - rejected, 0) << step;
+      state.step_control[0] = tried.time_step();
+      direct.restore(state);
+      direct.step();
+      EXPECT_EQ(direct.rejected_steps(), 0) << step;
+      EXPECT_EQ(direct.time(), tried.time());
+      for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+        EXPECT_TRUE((direct.membrane(i).positions() == tried.membrane(i).positions()).all()) << step;
+      const auto& u = direct.fluid().velocity().x;
+      EXPECT_TRUE(std::equal(u.data(), u.data() + u.size(), tried.fluid().velocity().x.data())) << step;
+      if (const auto* mu = direct.viscosity()) {
+        EXPECT_TRUE(std::equal(mu->data(), mu->data() + mu->size(), tried.viscosity()->data())) << step;
+      }
+      // The next trial is to be refused too.
+      state = tried.state();
+      state.step_control[0] = 0.03;
+      tried.restore(state);
+    }
+  };
+  for (const char* treatment : {"explicit", "extrapolated", "implicit"})
+    compare(with_contrast, {(std::string("fluid.viscous_treatment=") + treatment).c_str()});
+  compare(with_contrast, {"fluid.inertia=none"});
+  compare(three_vesicles, {});
+}
+
+// Also a step that cannot be made at all leaves the viscosity of the last one that was.
+TEST(AdaptiveStep, StopsWithTheViscosityOfTheLastStep) {
+  Simulation simulation(with_contrast(adaptive_with({"time.tolerance=1e-9", "time.smallest_step=0.001"})));
+  simulation.step();
+  const fluid::Field<fluid::Cell> before = simulation.viscosity()->clone();
+  const auto go_on = [&] {
+    for (int k = 0; k < 3; ++k) simulation.step();
+  };
+  EXPECT_THROW(go_on(), SimulationStopped);
+  EXPECT_TRUE(std::equal(before.data(), before.data() + before.size(), simulation.viscosity()->data()));
+}
+
+// time.step is at g = 15, twice what is stable: the first step is shortened, the others find their length by the error, which
+// the instability of the tension shows in.
+TEST(AdaptiveStep, FindsAStableStep) {
+  Simulation simulation(small_scene(adaptive_with({"membrane.g=15", "time.step=1/96", "time.end=1"})));
+  while (!simulation.finished()) simulation.step();
+  const vesicle::Diagnostics d = simulation.measure().at(0);
+  EXPECT_LT(d.max_local_area_error, 0.02);
+  EXPECT_LT(simulation.time_step() * 1440 / (4 * 0.25), 9.0);
+}
+
+TEST(AdaptiveStep, StopsAtTheSmallestStepInTheStateBeforeIt) {
+  Simulation simulation(small_scene(adaptive_with({"time.tolerance=1e-9", "time.smallest_step=0.001"})));
+  simulation.step();  // the first, whose error is not known
+  const double time = simulation.time();
+  const vesicle::VectorField positions = simulation.membrane(0).positions();
+  try {
+    for (int k = 0; k < 3; ++k) simulation.step();
+    FAIL() << "no step can meet this tolerance";
+  } catch (const SimulationStopped& stopped) {
+    EXPECT_NE(std::string(stopped.what()).find("time.smallest_step = 0.001"), std::string::npos) << stopped.what();
+    EXPECT_NE(std::string(stopped.what()).find("position error"), std::string::npos) << stopped.what();
+  }
+  EXPECT_EQ(simulation.time(), time);
+  EXPECT_TRUE((simulation.membrane(0).positions() == positions).all());
+}
+
+TEST(AdaptiveStep, LookingAtItDoesNotChangeIt) {
+  Simulation watched(small_scene(adaptive)), alone(small_scene(adaptive));
+  for (int i = 0; i < 6; ++i) {
+    watched.step();
+    watched.measure();
+    alone.step();
+  }
+  EXPECT_EQ(watched.time(), alone.time());
+  EXPECT_TRUE((watched.membrane(0).positions() == alone.membrane(0).positions()).all());
+}
+
+TEST(AdaptiveStep, RefusesImpossibleLimits) {
+  EXPECT_THROW(small_scene(adaptive_with({"time.smallest_step=0.1"})), SceneError);
+  EXPECT_THROW(small_scene(adaptive_with({"time.largest_step=0.001"})), SceneError);
+  EXPECT_THROW(small_scene(adaptive_with({"time.largest_step=0.3"})), SceneError);
+  EXPECT_THROW(small_scene({"time.adaptive=1"}), SceneError);
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling

@@ -1,0 +1,131 @@
+#include "membrane_response.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace vesiflow::coupling {
+namespace {
+
+constexpr int degrees = 24;
+constexpr double radius = 1.3;
+
+MembraneResponse response(double spacing, double a, double mu) {
+  MembraneResponse modes(degrees, radius, spacing);
+  modes.update(a, mu);
+  return modes;
+}
+
+/// By the degree that (n + 1/2)/R belongs to.
+TEST(MembraneResponse, OfAStokesFluidIsTheClosedForm) {
+  const double mu = 3.0;
+  const MembraneResponse modes = response(0.0, 0.0, mu);
+  for (int n = 0; n < degrees; ++n) {
+    const double k = (n + 0.5) / radius;
+    EXPECT_DOUBLE_EQ(modes.wavenumber(n), k);
+    // The integrands are cos^2 and sin^2 of the angle, for which the midpoint rule is exact.
+    EXPECT_NEAR(modes[n].normal.velocity * 4 * mu * k, 1, 1e-13);
+    EXPECT_NEAR(modes[n].along.velocity * 4 * mu * k, 1, 1e-13);
+    // Half of the answer of 1/(mu (1 + a/(mu q^2))) changes with a as -1/(mu q^2), ...: by hand below, exactly here.
+    EXPECT_NEAR(modes[n].normal.viscosity, 1 / mu, 1e-13);
+    EXPECT_NEAR(modes[n].along.viscosity, 1 / mu, 1e-13);
+  }
+}
+
+/// The integrals over k_z, by residues at i k and i m: m = sqrt(k^2 + a/mu). The error of the midpoint rule in the angle decays like
+/// exp(-2 N k/m) for N = 200 points, its integrands having poles at a distance k/m from the real axis: for all these, 400 k/m > 20.
+TEST(MembraneResponse, OfAFluidWithInertiaIsTheClosedForm) {
+  for (const double mu : {1.0, 5.0})
+    for (const double a : {0.01, 1.0, 30.0}) {
+      const MembraneResponse modes = response(0.0, a, mu);
+      for (int n = 0; n < degrees; ++n) {
+        const double k = modes.wavenumber(n), m = std::sqrt(k * k + a / mu);
+        const double along = 1 / (2 * mu * (m + k)), normal = k / (2 * mu * m * (m + k));
+        EXPECT_NEAR(modes[n].along.velocity / along, 1, 1e-9) << n << ' ' << a << ' ' << mu;
+        EXPECT_NEAR(modes[n].normal.velocity / normal, 1, 1e-9) << n << ' ' << a << ' ' << mu;
+      }
+    }
+}
+
+/// The pressure takes up the part of a force that the momentum alone would answer to with 1/(2 mu m).
+TEST(MembraneResponse, PartsAddUpToTheAnswerWithoutPressure) {
+  const double a = 7.0, mu = 2.0;
+  const MembraneResponse modes = response(0.0, a, mu);
+  for (int n = 0; n < degrees; ++n) {
+    const double k = modes.wavenumber(n), m = std::sqrt(k * k + a / mu);
+    EXPECT_NEAR((modes[n].along.velocity + modes[n].normal.velocity) * 2 * mu * m, 1, 1e-9);
+  }
+}
+
+TEST(MembraneResponse, MemoryIsTheDerivativeOfTheAnswer) {
+  for (const double spacing : {0.0, 0.1, 0.25})
+    for (const double a : {0.5, 20.0}) {
+      const double mu = 1.7, step = 1e-4;
+      const MembraneResponse modes = response(spacing, a, mu);
+      const MembraneResponse more_a = response(spacing, a + step, mu), less_a = response(spacing, a - step, mu);
+      const MembraneResponse more_mu = response(spacing, a, mu + step), less_mu = response(spacing, a, mu - step);
+      const auto slope = [&](double more, double less) { return -(std::log(more) - std::log(less)) / (2 * step); };
+      for (int n = 0; n < degrees; ++n)
+        for (const auto part : {&MembraneResponse::Mode::along, &MembraneResponse::Mode::normal}) {
+          const auto& answer = modes[n].*part;
+          // Truncation step^2, and round-off over the step.
+          EXPECT_NEAR(answer.inertia, slope((more_a[n].*part).velocity, (less_a[n].*part).velocity),
+                      1e-7 * answer.inertia + 1e-11);
+          EXPECT_NEAR(answer.viscosity, slope((more_mu[n].*part).velocity, (less_mu[n].*part).velocity),
+                      1e-7 * answer.viscosity + 1e-11);
+          // The answer is homogeneous of degree -1 in a and mu together.
+          EXPECT_NEAR(a * answer.inertia + mu * answer.viscosity, 1, 1e-13);
+        }
+    }
+}
+
+/// The wider the delta function, the less a membrane moves; the shortest waves most of all.
+TEST(MembraneResponse, FallsWithTheWidthOfTheDeltaFunction) {
+  for (const double a : {0.0, 20.0}) {
+    const MembraneResponse sharp = response(0.0, a, 1.0);
+    double last_width = 0.0;
+    for (const double h : {0.05, 0.1, 0.2, 0.4}) {
+      const MembraneResponse wide = response(h, a, 1.0), narrower = response(last_width, a, 1.0);
+      double last = 1.0;
+      for (int n = 0; n < degrees; ++n)
+        for (const auto part : {&MembraneResponse::Mode::along, &MembraneResponse::Mode::normal})
+          EXPECT_LT((wide[n].*part).velocity, (narrower[n].*part).velocity);
+      for (int n = 0; n < degrees; ++n) {
+        const double ratio = wide[n].normal.velocity / sharp[n].normal.velocity;
+        EXPECT_LT(ratio, last);
+        last = ratio;
+      }
+      last_width = h;
+    }
+  }
+}
+
+/// For a = 0 the normal part is erfc-like in t = k h sqrt(m): int g^2 k^2/q^4 dk_z by a fine trapezium rule in k_z.
+TEST(MembraneResponse, QuadratureInTheAngleIsFineEnough) {
+  const double h = 0.25, a = 20.0, mu = 1.0;
+  const MembraneResponse modes = response(h, a, mu);
+  for (const int n : {0, 2, 8, 16}) {
+    const double k = modes.wavenumber(n), step = k / 200;
+    double along = 0, normal = 0;
+    for (double kz = -60 / h; kz < 60 / h; kz += step) {
+      const double qq = k * k + kz * kz, g = std::exp(-0.3818 * h * h * kz * kz - 0.1 * k * k * h * h);
+      along += step * g * kz * kz / (qq * (a + mu * qq)) / (2 * M_PI);
+      normal += step * g * k * k / (qq * (a + mu * qq)) / (2 * M_PI);
+    }
+    EXPECT_NEAR(modes[n].along.velocity / along, 1, 1e-6) << n;
+    EXPECT_NEAR(modes[n].normal.velocity / normal, 1, 1e-6) << n;
+  }
+}
+
+TEST(MembraneResponse, IsUpdatedWhenAnythingChanges) {
+  MembraneResponse modes(degrees, radius, 0.2);
+  for (const auto& [a, mu] : {std::pair{1.0, 1.0}, {1.0, 2.0}, {3.0, 2.0}, {0.0, 2.0}}) {
+    modes.update(a, mu);
+    const MembraneResponse fresh = response(0.2, a, mu);
+    EXPECT_EQ(modes[5].along.velocity, fresh[5].along.velocity);
+    EXPECT_EQ(modes[5].normal.inertia, fresh[5].normal.inertia);
+  }
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling
