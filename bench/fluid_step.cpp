@@ -16,9 +16,9 @@
 
 #include "fluid/navier_stokes.h"
 #include "support/allocation_counter.h"
+#include "support/four_transforms.h"
 #include "support/timing.h"
 #include "support/viscous_blob.h"
-#include "support/yardsticks.h"
 
 namespace {
 
@@ -43,28 +43,6 @@ const std::array<Phase, 4> phases{{{"convection", &FluidTimings::convection},
                                    {"viscous", &FluidTimings::viscous},
                                    {"momentum", &FluidTimings::momentum},
                                    {"projection", &FluidTimings::projection}}};
-
-// The transforms of the four fast solves of a step.
-class FourTransforms {
- public:
-  FourTransforms(const Grid& grid, unsigned planning) {
-    const EllipticProblem pressure(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
-    const EllipticProblem velocity = EllipticProblem::velocity(grid, EllipticForm::laplacian, 1.0, 1.0);
-    pairs_[0] = std::make_unique<R2rPair>(pressure, planning);
-    for (int c = 0; c < 3; ++c) pairs_[c + 1] = std::make_unique<R2rPair>(velocity.component(c), planning);
-  }
-  Sample measure() {
-    Sample sum;
-    for (const auto& pair : pairs_) {
-      pair->clear();
-      sum += timed([&] { pair->execute(); });
-    }
-    return sum;
-  }
-
- private:
-  std::array<std::unique_ptr<R2rPair>, 4> pairs_;
-};
 
 // A blob in a shear flow at Re = 1e-3, with the paper's time step for the mesh width.
 class Flow {
