@@ -133,12 +133,14 @@ void Membrane::move_to(const VectorField& positions, const ScalarField& strain) 
   positions_ = positions;
   target_areas_ = surface_.area_weight() * (-strain).exp();
   initial_areas_ = target_areas_ * (initial_area_ / target_areas_.sum());
+  initial_area_ = initial_areas_.sum();  // to the last bit, as restore() takes it
 }
 
 RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) {
   update_geometry();
   const RedistributionReport report = redistribution.redistribute(surface_);
   if (!report.moved) return report;
+  const double target_area = target_areas_.sum();  // that of a strain field may have a mean
   for (ScalarField* areas : {&target_areas_, &initial_areas_}) *areas = (surface_.area_weight() / *areas).log();
   redistribution.carry(target_areas_);
   redistribution.carry(initial_areas_);
@@ -146,10 +148,9 @@ RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) 
   if (integral_) redistribution.carry(integral_tension_);
   positions_ = redistribution.positions();
   update_geometry();
-  for (ScalarField* areas : {&target_areas_, &initial_areas_}) {
-    *areas = surface_.area_weight() * (-*areas).exp();
-    *areas *= initial_area_ / areas->sum();
-  }
+  for (ScalarField* areas : {&target_areas_, &initial_areas_}) *areas = surface_.area_weight() * (-*areas).exp();
+  target_areas_ *= target_area / target_areas_.sum();
+  initial_areas_ *= initial_area_ / initial_areas_.sum();
   initial_area_ = initial_areas_.sum();  // to the last bit, as restore() takes it
   conserve();
   return report;
