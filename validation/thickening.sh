@@ -17,7 +17,8 @@ case_of() { # case_of NAME KERNEL CELLS LATITUDES [more options]
   if grep -qs '"status": "completed"' "$out/$name/summary.json"; then return; fi
   timeout 900 "$apps/shear_flow" scenes/tank_treading.toml --out "$out/$name" --threads 1 --quiet \
     --set "coupling.kernel=$kernel" --set "domain.cells=[$cells,$((cells / 2)),$cells]" --set "mesh.latitudes=$latitudes" \
-    --set "mesh.normal_degrees=$degrees"     --set 'domain.lower=[-6,0,-6]' --set 'domain.mirror=[false,true,false]' --set vesicles.0.rotation_deg=61.5 \
+    --set "mesh.normal_degrees=$degrees" \
+    --set 'domain.lower=[-6,0,-6]' --set 'domain.mirror=[false,true,false]' --set vesicles.0.rotation_deg=61.5 \
     --set time.markers=shape_following --set membrane.sigma0=9000 --set time.step=1/24 --set time.end=5 \
     --set output.diagnostics_every=0.5 --set output.vesicle_every=0 --set output.fluid_every=0 \
     --set output.checkpoint_every=0 "$@" || [ $? -eq 3 ] # a run that blows up is a result

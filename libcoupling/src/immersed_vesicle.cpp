@@ -46,32 +46,24 @@ ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const f
     thickness_.emplace(membrane, scene.coupling.kernel, scene.spacing(), 0.5 * (1.0 + scene.viscosity_ratio(number)));
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
-<<<<<<< HEAD
-  velocity_at_ = [this](const Eigen::Ref<const vesicle::VectorField>& positions, vesicle::VectorField& velocity) {
-    const PhaseTimer timer(*interpolation_seconds_);
-    transfer.update(positions);
-    transfer.interpolate(*fluid_velocity_, velocity);
-    if (thickness_) thickness_->add_to(membrane, velocity);
-  };
-=======
 }
 
 void ImmersedVesicle::FlowAtMarkers::operator()(const Positions& positions, vesicle::VectorField& velocity) const {
-  const PhaseTimer timer(*vesicle_.interpolation_seconds_);
-  vesicle_.transfer.update(positions);
-  vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
+  (*this)(1.0, positions, velocity);
 }
 
 void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions& positions,
                                                 vesicle::VectorField& velocity) const {
-  (*this)(positions, velocity);
-  if (fraction == 1.0) return;
   const PhaseTimer timer(*vesicle_.interpolation_seconds_);
-  vesicle::VectorField& at_start = vesicle_.at_start_;
-  at_start.resize(velocity.rows(), 3);
-  vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
-  velocity = fraction * velocity + (1.0 - fraction) * at_start;
->>>>>>> coupling-core
+  vesicle_.transfer.update(positions);
+  vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
+  if (fraction != 1.0) {
+    vesicle::VectorField& at_start = vesicle_.at_start_;
+    at_start.resize(velocity.rows(), 3);
+    vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
+    velocity = fraction * velocity + (1.0 - fraction) * at_start;
+  }
+  if (vesicle_.thickness_) vesicle_.thickness_->add_to(vesicle_.membrane, velocity);
 }
 
 void ImmersedVesicle::update() {

@@ -48,11 +48,7 @@ struct ImmersedVesicle {
   bool is_current = false;          ///< whether geometry and forces are those of the membrane's state
 
  private:
-<<<<<<< HEAD
   std::optional<ThicknessCorrection> thickness_;
-  VelocityAt velocity_at_;  // made once, so that steps do not allocate
-  const fluid::FaceVector* fluid_velocity_ = nullptr;
-=======
   class FlowAtMarkers final : public VelocityAt {
    public:
     explicit FlowAtMarkers(ImmersedVesicle& vesicle) : vesicle_(vesicle) {}
@@ -65,7 +61,6 @@ struct ImmersedVesicle {
 
   const fluid::FaceVector* previous_velocity_ = nullptr;
   const fluid::FaceVector* velocity_ = nullptr;
->>>>>>> coupling-core
   double* interpolation_seconds_ = nullptr;
   vesicle::VectorField at_start_;  // of the step, where that is asked for
 };
