@@ -150,9 +150,12 @@ void ShapeFollowing::find_mesh_velocity(const Surface& surface, const MarkerVelo
   largest_speed_ = std::sqrt(largest_square);
 }
 
-// (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh.
+// (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh. Volume and area are kept by the rates already:
+// conserve() alone would add what the implicit terms have not met, unlike the increments of the past, an error of first order.
 void ShapeFollowing::find_rates(const Surface& surface) {
-  rates_.leftCols<3>() = mesh_velocity_;
+  vectors_ = mesh_velocity_;
+  conservation(surface).remove_rates(surface, vectors_);
+  rates_.leftCols<3>() = vectors_;
   slip_theta_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_theta()).rowwise().sum();
   slip_phi_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_phi()).rowwise().sum();
   if (!has_tension()) return;
@@ -234,11 +237,16 @@ void ShapeFollowing::apply_operator(const Gmres::Vector& x, Gmres::Vector& resul
   result += x;
 }
 
+// Of volume and area, or near a sphere of the volume alone.
+vesicle::ConservationProjection& ShapeFollowing::conservation(const Surface& surface) {
+  const bool both = has_tension() && vesicle::ConservationProjection::independence(surface) > smallest_independence;
+  return both ? *volume_and_area_ : *volume_;
+}
+
 // Replaces the increment of the positions by one that ends at the right volume and area.
 void ShapeFollowing::conserve(const Surface& surface) {
-  const bool both = has_tension() && vesicle::ConservationProjection::independence(surface) > smallest_independence;
   vectors_ = state_.leftCols<3>() + increment_.leftCols<3>() - surface.positions();
-  (both ? *volume_and_area_ : *volume_).correct_displacement(surface, vectors_);
+  conservation(surface).correct_displacement(surface, vectors_);
   increment_.leftCols<3>() = vectors_ + surface.positions() - state_.leftCols<3>();
 }
 
@@ -291,7 +299,7 @@ void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
 }
 
 std::span<const double> ShapeFollowing::history() const {
-  if (!knows_state_) return {};
+  if (!knows_strain_) return {};  // known already where a history was restored and no step made since
   history_.assign({previous_dt_, static_cast<double>(corrections_), static_cast<double>(smooth_steps_)});
   const auto append = [this](const double* values, Eigen::Index size) {
     history_.insert(history_.end(), values, values + size);

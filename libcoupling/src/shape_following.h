@@ -62,6 +62,7 @@ class ShapeFollowing final : public MembraneMotion {
   void find_rates(const vesicle::Surface& surface);
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
+  vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
   void conserve(const vesicle::Surface& surface);
   void estimate_error(double ratio);
   void keep_corrections();
