@@ -279,6 +279,7 @@ void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
   owes_ = has_inertia_ && corrections_ > 0;
   if (!owes_) return;
   const double r = step_ratio(dt), rate = reynolds_number_ / dt;
+  response_.update(rate * (1.0 + 2.0 * r) / (1.0 + r), solved_viscosity_);  // not that of the last step: a restart has none
   const double inertia = rate * (1.0 + r), older_inertia = rate * r * r / (1.0 + r);
   const double viscosity = explicit_viscosity_ * (extrapolates_viscosity_ ? 1.0 + r : 1.0);
   const double older_viscosity = extrapolates_viscosity_ ? explicit_viscosity_ * r : 0.0;
