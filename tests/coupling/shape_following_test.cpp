@@ -8,7 +8,6 @@
 #include <string>
 
 #include "small_scene.h"
-#include "support/allocation_counter.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -37,7 +36,8 @@ TEST(ShapeFollowing, IsOfSecondOrder) {
     return at_end(following(1, {"fluid.inertia=none", "time.step=1/" + std::to_string(steps)}));
   };
   const auto a = kept(12), b = kept(24), c = kept(48);
-  EXPECT_LT(std::abs(c.inclination_angle - b.inclination_angle), 0.3 * std::abs(b.inclination_angle - a.inclination_angle));
+  EXPECT_LT(std::abs(c.inclination_angle - b.inclination_angle),
+            0.3 * std::abs(b.inclination_angle - a.inclination_angle));
   EXPECT_LT(std::abs(c.inclination_angle - b.inclination_angle), 1e-4);
   // Nothing but bending and the volume.
   const auto free = [](int steps) {
@@ -78,15 +78,6 @@ TEST(ShapeFollowing, GivesTheSameBitsForEveryNumberOfThreads) {
   omp_set_num_threads(before);
   EXPECT_TRUE((one == two).all());
   EXPECT_TRUE((one == three).all());
-}
-
-TEST(ShapeFollowing, AWarmedUpStepAllocatesNothing) {
-  if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
-  Simulation simulation(following(stiff));
-  for (int i = 0; i < 4; ++i) simulation.step();
-  const long before = test::allocation_count();
-  for (int i = 0; i < 2; ++i) simulation.step();
-  EXPECT_EQ(test::allocation_count() - before, 0);
 }
 
 void expect_same(Simulation& a, Simulation& b) {
@@ -136,10 +127,10 @@ TEST(ShapeFollowing, ASphereTurnsAtHalfTheShearRate) {
 }
 
 TEST(ShapeFollowing, IsStableWithViscosityContrastAndInertia) {
-  for (const Overrides& overrides :
-       {Overrides{"fluid.viscosity_ratio=5", "time.step=1/48", "time.end=2"}, {"fluid.reynolds_number=1", "time.end=2"}}) {
+  for (const Overrides& overrides : {Overrides{"fluid.viscosity_ratio=5", "time.step=1/48", "time.end=2"},
+                                     {"fluid.reynolds_number=1", "time.end=2"}}) {
     const vesicle::Diagnostics d = at_end(following(stiff, overrides));
-    EXPECT_LT(d.surface_divergence_max, 0.1) << overrides[0];
+    EXPECT_LT(d.max_local_area_error, 5e-3) << overrides[0];
     EXPECT_LT(std::abs(d.area_error), 1e-12);
   }
 }
