@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "vesicle/rigid_motion.h"
+#include "vesicle/shapes.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -18,6 +19,8 @@ using vesicle::VectorField;
 constexpr int smooth_degrees = 5;
 // Below this share of varying curvature a vesicle is a sphere to the conservation of area.
 constexpr double smallest_independence = 1e-3;
+// Nor can the area of a sphere be kept once it is one no more: relative area beyond that of the sphere of the same volume.
+constexpr double smallest_excess_area = 1e-3;
 // The highest degree decays at this many times the rate at which the membrane is swept along, degree n by (n/p)^8 of it: waves
 // near the resolution of the grid, which the fluid hardly feels, would otherwise grow by a factor 4 in unit time.
 constexpr double damping = 8.0;
@@ -74,6 +77,9 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   }
   vesicle::Conserved conserved;
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
+  const double excess =
+      1.0 / std::cbrt(std::pow(vesicle::reduced_volume(membrane.initial_area(), membrane.initial_volume()), 2)) - 1.0;
+  keeps_area_ = has_tension() && excess > smallest_excess_area;
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
   if (has_tension()) conserved.area = membrane.initial_area();
   volume_and_area_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
@@ -155,9 +161,12 @@ void ShapeFollowing::find_mesh_velocity(const Surface& surface, const MarkerVelo
   largest_speed_ = std::sqrt(largest_square);
 }
 
-// (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh.
+// (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh. Volume and area are kept by the rates already:
+// conserve() alone would add what the implicit terms have not met, unlike the increments of the past, an error of first order.
 void ShapeFollowing::find_rates(const Surface& surface) {
-  rates_.leftCols<3>() = mesh_velocity_;
+  vectors_ = mesh_velocity_;
+  conservation(surface).remove_rates(surface, vectors_);
+  rates_.leftCols<3>() = vectors_;
   slip_theta_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_theta()).rowwise().sum();
   slip_phi_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_phi()).rowwise().sum();
   if (!has_tension()) return;
@@ -234,11 +243,16 @@ void ShapeFollowing::apply_operator(const Gmres::Vector& x, Gmres::Vector& resul
   result += x;
 }
 
+// Of volume and area, or near a sphere of the volume alone.
+vesicle::ConservationProjection& ShapeFollowing::conservation(const Surface& surface) {
+  const bool both = keeps_area_ && vesicle::ConservationProjection::independence(surface) > smallest_independence;
+  return both ? *volume_and_area_ : *volume_;
+}
+
 // Replaces the increment of the positions by one that ends at the right volume and area.
 void ShapeFollowing::conserve(const Surface& surface) {
-  const bool both = has_tension() && vesicle::ConservationProjection::independence(surface) > smallest_independence;
   vectors_ = state_.leftCols<3>() + increment_.leftCols<3>() - surface.positions();
-  (both ? *volume_and_area_ : *volume_).correct_displacement(surface, vectors_);
+  conservation(surface).correct_displacement(surface, vectors_);
   increment_.leftCols<3>() = vectors_ + surface.positions() - state_.leftCols<3>();
 }
 
@@ -271,6 +285,8 @@ void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
   owes_ = has_inertia_ && corrections_ > 0;
   if (!owes_) return;
   const double r = step_ratio(dt), rate = reynolds_number_ / dt;
+  response_.update(rate * (1.0 + 2.0 * r) / (1.0 + r),
+                   solved_viscosity_);  // not that of the last step: a restart has none
   const double inertia = rate * (1.0 + r), older_inertia = rate * r * r / (1.0 + r);
   const double viscosity = explicit_viscosity_ * (extrapolates_viscosity_ ? 1.0 + r : 1.0);
   const double older_viscosity = extrapolates_viscosity_ ? explicit_viscosity_ * r : 0.0;
@@ -291,7 +307,7 @@ void ShapeFollowing::find_owed_force(double dt, const Surface& surface) {
 }
 
 std::span<const double> ShapeFollowing::history() const {
-  if (!knows_state_) return {};
+  if (!knows_strain_) return {};  // known already where a history was restored and no step made since
   history_.assign({previous_dt_, static_cast<double>(corrections_), static_cast<double>(smooth_steps_)});
   const auto append = [this](const double* values, Eigen::Index size) {
     history_.insert(history_.end(), values, values + size);

@@ -62,6 +62,7 @@ class ShapeFollowing final : public MembraneMotion {
   void find_rates(const vesicle::Surface& surface);
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
+  vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
   void conserve(const vesicle::Surface& surface);
   void estimate_error(double ratio);
   void keep_corrections();
@@ -70,7 +71,7 @@ class ShapeFollowing final : public MembraneMotion {
 
   double sigma0_, bending_, reynolds_number_, radius_;
   double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
-  bool has_inertia_, extrapolates_viscosity_, keeps_volume_;
+  bool has_inertia_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
   vesicle::SphericalHarmonics harmonics_;
   MembraneResponse response_;
   std::optional<vesicle::ConservationProjection> volume_and_area_, volume_;

@@ -101,6 +101,18 @@ void ConservationProjection::correct_velocity(const Surface& surface, double dt,
   add(multipliers(surface, missing), velocity);
 }
 
+void ConservationProjection::remove_rates(const Surface& surface, VectorField& velocity) {
+  check_markers(velocity, "velocity", surface.grid().size());
+  check_finite(velocity, "a velocity");
+  if (!conserved_.volume && !conserved_.area) return;
+  set_directions(surface);
+  if (displacement_filter_) smooth_directions(surface);
+  Eigen::Vector2d missing = Eigen::Vector2d::Zero();
+  if (conserved_.volume) missing[0] = -surface.flux(velocity);
+  if (conserved_.area) missing[1] = -area_rate(surface, velocity);
+  add(multipliers(surface, missing), velocity);
+}
+
 void ConservationProjection::correct_displacement(const Surface& surface, VectorField& displacement) {
   check_markers(displacement, "displacement", surface.grid().size());
   if (!conserved_.volume && !conserved_.area) return;

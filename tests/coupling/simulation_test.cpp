@@ -139,7 +139,7 @@ TEST(Simulation, VesiclesInOneBoxDoNotDependOnTheirOrder) {
 
 TEST(Simulation, AWarmedUpStepAllocatesNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
-  for (const char* markers : {"euler", "ab2"}) {
+  for (const char* markers : {"euler", "ab2", "shape_following"}) {
     Simulation simulation(small_scene({"membrane.g=2", std::string("time.markers=") + markers}));
     advance(simulation, 3);
     const long before = test::allocation_count();

@@ -34,6 +34,11 @@ class ConservationProjection {
   /// H is nearly constant (a sphere), or if the velocity or its correction is not finite (the velocity is then as it was).
   void correct_velocity(const Surface& surface, double dt, VectorField& velocity);
 
+  /// Velocity, shape (markers, 3): changed along the directions of displacements so that what is conserved does not change, whether
+  /// the surface has its target values or not: int U . n dA = 0 and int 2 H U . n dA = 0.
+  /// @throws std::domain_error as above.
+  void remove_rates(const Surface& surface, VectorField& velocity);
+
   /// Displacement D, shape (markers, 3): D += (a + F[2 H] b) n, with n and H before the move, so that X + D encloses V0 and has
   /// area A0 to a relative 1e-13. Newton's method; meant for D small beside the size of the surface.
   /// @throws std::domain_error as above, or if the iteration does not converge.
