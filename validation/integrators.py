@@ -75,7 +75,7 @@ def tumbling():
 
     yield of("extrapolated", 48, 50)
     yield of("extrapolated", 96, 10)
-    yield of("explicit", 48, 8)
+    yield of("explicit", 48, 10)
     yield of("explicit", 96, 8)
 
 

@@ -141,9 +141,8 @@ def main():
     of = lambda *sets: [k for k, r in treading.items() if r["set"] in sets]
     integrators(treading, of("treading_64", "arkode_64"), "64^3 v=0.9 shape_following 1/48 sigma0=60000", "64^3, 32 latitudes")
     for volume in ("0.9", "0.8"):
-        best = "128^3 v=0.9 shape_following 1/24 sigma0=9000" if volume == "0.9" else "128^3 v=0.8 shape_following 1/24 sigma0=9000"
         names = [k for k in of("treading_128", "treading_128_small_step", "paper_128") if f"v={volume}" in k]
-        integrators(treading, names, best, f"128^3, 64 latitudes, reduced volume {volume}")
+        integrators(treading, names, None, f"128^3, 64 latitudes, reduced volume {volume}")
     transient(treading)
     turning(turned)
     steady(turned, "ratio 5")
