@@ -27,9 +27,11 @@ namespace vesiflow::coupling {
 /// for: the next steps hand it the forces that its terms at old times lack (owed_force). Without them Z meets a fluid that does
 /// not remember, and the recurrence grows by up to a half in each step.
 ///
-/// Area and volume are exact after each step (ConservationProjection::correct_displacement along smooth directions); s is then the
-/// Lagrange multiplier of its own equation. Near spheres, where both cannot be kept, the volume is. Degrees kept: those the fluid's
-/// grid resolves, k h < 3, and n < 2N/3; the highest are damped a little (their waves would grow on the slip).
+/// Area and volume are exact after each step: their rates are taken out of W (ConservationProjection::remove_rates; without it the
+/// correction that follows, of which Z does not know, makes the scheme first order), and the displacement is corrected along smooth
+/// directions (correct_displacement). s is then the Lagrange multiplier of its own equation. Near spheres, where both cannot be kept,
+/// the volume is: below an excess area of 1e-3 of the sphere's, or where H varies by less than 3 %. Degrees kept: those the fluid's
+/// grid resolves, k h < 0.7 pi, and n < 2N/3; the highest are damped a little (their waves would grow on the slip).
 class ShapeFollowing final : public MembraneMotion {
  public:
   ShapeFollowing(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane);
@@ -80,7 +82,7 @@ class ShapeFollowing final : public MembraneMotion {
 
   // The state and what its history is made of.
   State state_, increment_;                              // y^k, d^k
-  vesicle::VectorField curvature_of_path_;               // d^k - r d^{k-1} of X
+  vesicle::VectorField curvature_of_path_, bend_;  // dt^2 d^2X/dt^2 of the last step, and of this
   vesicle::Coefficients correction_, older_correction_;  // of the forces, by the last two steps
   double previous_dt_ = 0.0;
   int corrections_ = 0;
