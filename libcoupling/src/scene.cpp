@@ -147,10 +147,11 @@ void check_degrees(const Scene& scene, std::size_t i, const std::string& name) {
 
 void check_tension(const Scene& scene, const std::string& name) {
   if (scene.time.markers == "shape_following" && scene.membrane.area == vesicle::AreaControl::penalty)
-    throw SceneError(fmt::format(
-        "{}: membrane.area = \"penalty\": time.markers = \"shape_following\" keeps the area exactly where there is tension; set "
-        "it to \"none\", or take another way to move the markers",
-        name));
+    throw SceneError(
+        fmt::format("{}: membrane.area = \"penalty\": time.markers = \"shape_following\" keeps the area exactly where "
+                    "there is tension; set "
+                    "it to \"none\", or take another way to move the markers",
+                    name));
   if (scene.time.markers == "shape_following" && scene.membrane.integral_rate > 0.0)
     throw SceneError(fmt::format(
         "{}: membrane.integral_rate = {:g}: time.markers = \"shape_following\" keeps the area without it; set "

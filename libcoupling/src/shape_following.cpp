@@ -61,7 +61,8 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   const Eigen::Index markers = membrane.positions().rows();
   for (State* field : {&state_, &increment_, &predicted_, &rates_, &theta_, &phi_})
     *field = State::Zero(markers, fields());
-  for (VectorField* field : {&positions_, &velocity_, &mesh_velocity_, &vectors_, &owed_force_, &curvature_of_path_, &bend_})
+  for (VectorField* field :
+       {&positions_, &velocity_, &mesh_velocity_, &vectors_, &owed_force_, &curvature_of_path_, &bend_})
     *field = VectorField::Zero(markers, 3);
   coefficients_.resize(harmonics_.degrees(), fields());
   correction_ = older_correction_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
@@ -226,8 +227,9 @@ void ShapeFollowing::solve_increment(double dt) {
   right_side_.array() *= inverse_diagonal_.array();
   const Gmres::Report report = gmres_.solve(operator_, right_side_, gmres_tolerance, solution_);
   if (!(report.residual < worst_residual))
-    throw std::domain_error("the implicit slip of the mesh was not found: the membrane is swept along by too many of its waves in a "
-                            "step; reduce time.step");
+    throw std::domain_error(
+        "the implicit slip of the mesh was not found: the membrane is swept along by too many of its waves in a "
+        "step; reduce time.step");
 
   as_vector(coefficients_) = solution_;
   if (has_inertia_) keep_corrections();

@@ -82,7 +82,7 @@ class ShapeFollowing final : public MembraneMotion {
 
   // The state and what its history is made of.
   State state_, increment_;                              // y^k, d^k
-  vesicle::VectorField curvature_of_path_, bend_;  // dt^2 d^2X/dt^2 of the last step, and of this
+  vesicle::VectorField curvature_of_path_, bend_;        // dt^2 d^2X/dt^2 of the last step, and of this
   vesicle::Coefficients correction_, older_correction_;  // of the forces, by the last two steps
   double previous_dt_ = 0.0;
   int corrections_ = 0;
