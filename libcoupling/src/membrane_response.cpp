@@ -6,14 +6,13 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr double second_moment = 0.3818;  // of the smoothed 4-point kernel; the others have 0.25 to 0.71
 constexpr double in_plane_decay = 0.1;
 constexpr int points = 200;  // of the quadrature in the angle atan(k_z / k): errors below 1e-3
 
 }  // namespace
 
-MembraneResponse::MembraneResponse(int degrees, double radius, double spacing)
-    : radius_(radius), spacing_(spacing), modes_(static_cast<std::size_t>(degrees)) {}
+MembraneResponse::MembraneResponse(int degrees, double radius, double spacing, double second_moment)
+    : radius_(radius), spacing_(spacing), second_moment_(second_moment), modes_(static_cast<std::size_t>(degrees)) {}
 
 void MembraneResponse::update(double a, double mu) {
   if (a == a_ && mu == mu_) return;
@@ -33,7 +32,7 @@ void MembraneResponse::update(double a, double mu) {
       const double kz = k * std::tan(angle), qq = k * k + kz * kz;
       const double across = kz * spacing_;
       const double weight =
-          std::exp(-second_moment * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
+          std::exp(-second_moment_ * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
       const double inverse = 1.0 / (a + mu * qq);
       add(mode.along, weight * kz * kz, qq, inverse);
       add(mode.normal, weight * k * k, qq, inverse);

@@ -25,7 +25,8 @@ class MembraneResponse {
   };
 
   /// \param radius of the sphere of the membrane's area
-  MembraneResponse(int degrees, double radius, double spacing);
+  /// \param second_moment m: that of the smoothed 4-point kernel (the others have 0.25 to 0.71), 0 for a thin membrane
+  MembraneResponse(int degrees, double radius, double spacing, double second_moment = 0.3818);
 
   /// Recomputes the modes if a or mu has changed.
   void update(double a, double mu);
@@ -34,7 +35,7 @@ class MembraneResponse {
   double wavenumber(int degree) const { return (degree + 0.5) / radius_; }
 
  private:
-  double radius_, spacing_;
+  double radius_, spacing_, second_moment_;
   double a_ = -1.0, mu_ = 0.0;
   std::vector<Mode> modes_;
 };

@@ -112,15 +112,6 @@ void check_physics(const Scene& scene, const std::string& name) {
         name));
 }
 
-// The implicit part of shape following is made for the response of a thick membrane: a thin one is too fast for it.
-void check_thickness(const Scene& scene, const std::string& name) {
-  if (scene.coupling.thickness_correction && scene.time.markers == "shape_following")
-    throw SceneError(
-        fmt::format("{}: coupling.thickness_correction = true: is unstable with time.markers = \"shape_following\"; "
-                    "take euler, ab2",
-                    name));
-}
-
 void check_gravity(const Scene& scene, const std::string& name) {
   const bool differs = std::ranges::any_of(scene.vesicles, [](const auto& v) { return v.density_difference != 0.0; });
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -299,7 +290,6 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_time_keys(scene, name);
   check_flow(scene, name);
   check_gravity(scene, name);
-  check_thickness(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     check_degrees(scene, i, name);

@@ -25,6 +25,8 @@ constexpr double smallest_excess_area = 1e-3;
 // near the resolution of the grid, which the fluid hardly feels, would otherwise grow. With degrees up to k h = 0.95 pi and 8 here they
 // grew at 128^3 by a factor 2 in unit time, from the tips (validation/integrators.md).
 constexpr double damping = 16.0;
+// Across the membrane; a correction of its thickness makes the answer that of a thin one.
+constexpr double smoothed4_second_moment = 0.3818;
 constexpr double gmres_tolerance = 1e-4, worst_residual = 1e-2;
 // Z over the rates of MembraneResponse, without inertia and where inertia dominates the response (seen by trial: 1.5 is unstable
 // there at Re = 1).
@@ -55,7 +57,8 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
       extrapolates_viscosity_(scene.fluid.viscous_treatment == fluid::ViscousTreatment::extrapolated),
       keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
       harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
-      response_(harmonics_.degrees(), radius_, scene.spacing()),
+      response_(harmonics_.degrees(), radius_, scene.spacing(),
+                scene.coupling.thickness_correction ? 0.0 : smoothed4_second_moment),
       operator_([this](const Gmres::Vector& x, Gmres::Vector& result) { apply_operator(x, result); }),
       stiffness_(static_cast<std::size_t>(harmonics_.degrees())) {
   const Eigen::Index markers = membrane.positions().rows();
