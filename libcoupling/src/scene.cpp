@@ -112,13 +112,20 @@ void check_physics(const Scene& scene, const std::string& name) {
         name));
 }
 
-// The implicit part of shape following is made for the response of a thick membrane: a thin one is too fast for it.
+// A membrane that is thin answers faster: too fast for what shape following takes it to be, and for explicit tension.
 void check_thickness(const Scene& scene, const std::string& name) {
-  if (scene.coupling.thickness_correction && scene.time.markers == "shape_following")
+  if (!scene.coupling.thickness_correction) return;
+  if (scene.time.markers == "shape_following")
     throw SceneError(
         fmt::format("{}: coupling.thickness_correction = true: is unstable with time.markers = \"shape_following\"; "
                     "take euler, ab2",
                     name));
+  constexpr double largest = 3.0;
+  if (scene.tension_number() > largest)
+    throw SceneError(fmt::format(
+        "{}: coupling.thickness_correction = true: with it the explicit tension is stable below g = time.step "
+        "membrane.sigma0/(4 h) of about 2, and this scene has {:.3g}; take time.step <= {:.3g}",
+        name, scene.tension_number(), 2.0 * scene.time.step / scene.tension_number()));
 }
 
 void check_gravity(const Scene& scene, const std::string& name) {
