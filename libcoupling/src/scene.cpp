@@ -112,6 +112,18 @@ void check_physics(const Scene& scene, const std::string& name) {
         name));
 }
 
+// A membrane that is thin answers faster: too fast for an explicit tension that is right for a thick one.
+void check_thickness(const Scene& scene, const std::string& name) {
+  constexpr double largest = 3.0;
+  if (!scene.coupling.thickness_correction || scene.time.markers == "shape_following") return;
+  if (scene.tension_number() > largest)
+    throw SceneError(fmt::format(
+        "{}: coupling.thickness_correction = true: with it the explicit tension is stable below g = time.step "
+        "membrane.sigma0/(4 h) of about 2, and this scene has {:.3g}; take time.step <= {:.3g} or time.markers = "
+        "\"shape_following\"",
+        name, scene.tension_number(), 2.0 * scene.time.step / scene.tension_number()));
+}
+
 void check_gravity(const Scene& scene, const std::string& name) {
   const bool differs = std::ranges::any_of(scene.vesicles, [](const auto& v) { return v.density_difference != 0.0; });
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -289,6 +301,7 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_time(scene, name);
   check_time_keys(scene, name);
   check_flow(scene, name);
+  check_thickness(scene, name);
   check_gravity(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {

@@ -85,13 +85,27 @@ TEST(ThicknessCorrection, FollowsTheGradientOfTheTension) {
 // The tank-treading of a coarse box moves towards that of a fine one: less inclined and faster.
 TEST(ThicknessCorrection, MovesASimulationTheRightWay) {
   const auto after = [](const char* correction) {
-    Simulation simulation(small_scene({std::string("coupling.thickness_correction=") + correction, "membrane.g=3"}));
+    Simulation simulation(small_scene({std::string("coupling.thickness_correction=") + correction, "membrane.g=1.5"}));
     for (int i = 0; i < 96; ++i) simulation.step();
     return simulation.measure().at(0);
   };
   const vesicle::Diagnostics thick = after("false"), thin = after("true");
   EXPECT_LT(thin.inclination_angle, thick.inclination_angle);
   EXPECT_GT(thin.tank_treading_frequency, thick.tank_treading_frequency);
+}
+
+TEST(ThicknessCorrection, IsRefusedWhereItIsUnstable) {
+  const auto message = [](const char* key) -> std::string {
+    try {
+      small_scene({"coupling.thickness_correction=true", "membrane.g=1.5", key});
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message("time.markers=euler"), "accepted");
+  EXPECT_EQ(message("time.markers=shape_following"), "accepted");  // its implicit part is then that of a thin membrane
+  EXPECT_NE(message("membrane.g=4").find("this scene has 4; take time.step <= 0.0052"), std::string::npos);
 }
 
 }  // namespace
