@@ -124,8 +124,8 @@ TEST(Membrane, MoveToTakesShapeAndStrain) {
       (membrane.surface().area_weight() == moved.area_weight()).all());  // the geometry is that of the new shape
   EXPECT_LT(((moved.area_weight() / membrane.target_areas()).log() - strain).abs().maxCoeff(), 1e-14);
   EXPECT_LT((membrane.target_areas() - moved.area_weight() * (-strain).exp()).abs().maxCoeff(), 1e-16);
-  EXPECT_EQ(membrane.initial_area(), initial_area);
-  EXPECT_NEAR(membrane.initial_areas().sum(), initial_area, 1e-13);
+  EXPECT_NEAR(membrane.initial_area(), initial_area, 1e-14);  // the sum of areas scaled to it, so but for the last bits
+  EXPECT_EQ(membrane.initial_areas().sum(), membrane.initial_area());
   const ScalarField ratio = membrane.initial_areas() / membrane.target_areas();
   EXPECT_LT(ratio.maxCoeff() - ratio.minCoeff(), 1e-14);
   // sigma = sigma0 ln J / J of Eq. (31) then has J = e^strain.
@@ -135,7 +135,7 @@ TEST(Membrane, MoveToTakesShapeAndStrain) {
   // There and back.
   membrane.move_to(start(), ScalarField::Zero(shape.rows()));
   EXPECT_TRUE((membrane.target_areas() == membrane.surface().area_weight()).all());
-  EXPECT_EQ(membrane.initial_area(), initial_area);
+  EXPECT_NEAR(membrane.initial_area(), initial_area, 2e-14);
 }
 
 TEST(Membrane, AFailingMoveToLeavesTheStateAlone) {
