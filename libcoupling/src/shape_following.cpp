@@ -84,10 +84,29 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
   const double excess =
       1.0 / std::cbrt(std::pow(vesicle::reduced_volume(membrane.initial_area(), membrane.initial_volume()), 2)) - 1.0;
-  keeps_area_ = has_tension() && excess > smallest_excess_area;
+  const bool wants_area = has_tension() || scene.membrane.area == vesicle::AreaControl::projection;
+  keeps_area_ = wants_area && excess > smallest_excess_area;
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
-  if (has_tension()) conserved.area = membrane.initial_area();
+  if (keeps_area_) conserved.area = membrane.initial_area();
   volume_and_area_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
+}
+
+// Takes the membrane's state. Markers that have no history with this motion are new to it: what their shape has in degrees that it does
+// not keep would stand in space for good, so that goes, at the right volume and area.
+void ShapeFollowing::start(vesicle::Membrane& membrane) {
+  membrane.update_geometry();
+  const Surface& surface = membrane.surface();
+  vectors_ = membrane.positions();
+  if (!knows_strain_) {
+    if (has_tension()) state_.col(3) = (surface.area_weight() / membrane.target_areas()).log();
+    harmonics_.analysis(vectors_, velocity_coefficients_);
+    harmonics_.synthesis(velocity_coefficients_, vectors_);
+    vectors_ -= membrane.positions();
+    conservation(surface).correct_displacement(surface, vectors_);
+    vectors_ += membrane.positions();
+  }
+  state_.leftCols<3>() = vectors_;
+  knows_state_ = knows_strain_ = true;
 }
 
 // y* = y^k + r d^k.
@@ -97,13 +116,7 @@ bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
   last_ = r * r / (1.0 + r);
   acceleration_ = has_inertia_ ? reynolds_number_ * leading_ / dt : 0.0;
   response_.update(acceleration_, solved_viscosity_);  // of this step: a restart has none of the last
-  if (!knows_state_) {
-    membrane.update_geometry();
-    state_.leftCols<3>() = membrane.positions();
-    if (has_tension() && !knows_strain_)
-      state_.col(3) = (membrane.surface().area_weight() / membrane.target_areas()).log();
-    knows_state_ = knows_strain_ = true;
-  }
+  if (!knows_state_) start(membrane);
   predicted_ = state_ + r * increment_;
   positions_ = predicted_.leftCols<3>();
   strain_ = predicted_.col(fields() - 1);

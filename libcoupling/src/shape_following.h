@@ -60,6 +60,7 @@ class ShapeFollowing final : public MembraneMotion {
   int fields() const { return has_tension() ? 4 : 3; }
   double step_ratio(double dt) const { return previous_dt_ > 0.0 ? dt / previous_dt_ : 0.0; }
 
+  void start(vesicle::Membrane& membrane);
   void find_mesh_velocity(const vesicle::Surface& surface, const MarkerVelocities& velocities);
   void find_rates(const vesicle::Surface& surface);
   void find_stiffness(double dt, const vesicle::Surface& surface);

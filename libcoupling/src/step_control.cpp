@@ -60,6 +60,10 @@ bool StepControl::accepts(double dt, const StepErrors& errors) {
     may_grow_ = false;
     return false;
   }
+  if (!errors.position) {  // as in a start: nothing says that the next step may be longer
+    may_grow_ = true;
+    return true;
+  }
   constexpr double least = 1e-6;  // of e, below which steps grow at the largest rate anyhow
   ratio = std::max(ratio, least);
   const double factor = safety * std::pow(ratio, -0.35) * std::pow(last_ratio_, 0.2);
