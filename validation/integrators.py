@@ -54,7 +54,7 @@ def transient_64():
 
 def treading_128():
     for volume in (0.9, 0.8):
-        for step in (24, 12):
+        for step in (24, 12, 8):
             yield treading(128, 64, "shape_following", step, 9000, volume=volume)
 
 

@@ -6,7 +6,10 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr double in_plane_decay = 0.1;
+// Exponents c of exp(-c (k h)^2), what the delta function takes off the answer within the sheet. On spheres it was measured to be 0.35
+// (to 15 %, for k h of 0.3 to 2 and Re/dt up to 480). `velocity` overestimates the answer on purpose. What makes up for a velocity that
+// the fluid never had is in inverse proportion to the true answer; 1.4 times too much is unstable, half of it is not: hence 0.2.
+constexpr double in_plane_decay = 0.1, owed_decay = 0.2;
 constexpr int points = 200;  // of the quadrature in the angle atan(k_z / k): errors below 1e-3
 
 }  // namespace
@@ -37,9 +40,10 @@ void MembraneResponse::update(double a, double mu) {
       add(mode.along, weight * kz * kz, qq, inverse);
       add(mode.normal, weight * k * k, qq, inverse);
     }
+    const double owed = std::exp((owed_decay - in_plane_decay) * in_plane * in_plane);
     for (Mode::Answer* answer : {&mode.along, &mode.normal}) {
-      answer->inertia /= answer->velocity;
-      answer->viscosity /= answer->velocity;
+      answer->inertia *= owed / answer->velocity;
+      answer->viscosity *= owed / answer->velocity;
     }
     modes_[n] = mode;
   }

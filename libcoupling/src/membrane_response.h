@@ -14,7 +14,8 @@ namespace vesiflow::coupling {
 /// second moment of the kernels would give more, and then modes of k h of 2 to 3 were underestimated and unstable.
 ///
 /// What a fluid that carries part of its operator explicitly remembers of a velocity is -d(log response)/da for its time derivative
-/// (`inertia`) and -d(log response)/d mu for its viscous term (`viscosity`). Units: lengths of the scene, mu of the outer fluid.
+/// (`inertia`) and -d(log response)/d mu for its viscous term (`viscosity`), both times exp(0.1 (k h)^2), as the true response is
+/// weaker than `velocity` by about exp(-0.25 (k h)^2). Units: lengths of the scene, mu of the outer fluid.
 class MembraneResponse {
  public:
   struct Mode {

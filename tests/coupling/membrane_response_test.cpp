@@ -4,6 +4,12 @@
 
 #include <cmath>
 
+#include "coupling/marker_transfer.h"
+#include "fluid/navier_stokes.h"
+#include "vesicle/shapes.h"
+#include "vesicle/spherical_harmonics.h"
+#include "vesicle/surface.h"
+
 namespace vesiflow::coupling {
 namespace {
 
@@ -68,15 +74,64 @@ TEST(MembraneResponse, MemoryIsTheDerivativeOfTheAnswer) {
       for (int n = 0; n < degrees; ++n)
         for (const auto part : {&MembraneResponse::Mode::along, &MembraneResponse::Mode::normal}) {
           const auto& answer = modes[n].*part;
+          // That of the velocity, but for what the model overestimates within the sheet.
+          const double in_plane = modes.wavenumber(n) * spacing, owed = std::exp(0.1 * in_plane * in_plane);
           // Truncation step^2, and round-off over the step.
-          EXPECT_NEAR(answer.inertia, slope((more_a[n].*part).velocity, (less_a[n].*part).velocity),
+          EXPECT_NEAR(answer.inertia, owed * slope((more_a[n].*part).velocity, (less_a[n].*part).velocity),
                       1e-7 * answer.inertia + 1e-11);
-          EXPECT_NEAR(answer.viscosity, slope((more_mu[n].*part).velocity, (less_mu[n].*part).velocity),
+          EXPECT_NEAR(answer.viscosity, owed * slope((more_mu[n].*part).velocity, (less_mu[n].*part).velocity),
                       1e-7 * answer.viscosity + 1e-11);
           // The answer is homogeneous of degree -1 in a and mu together.
-          EXPECT_NEAR(a * answer.inertia + mu * answer.viscosity, 1, 1e-13);
+          EXPECT_NEAR(a * answer.inertia + mu * answer.viscosity, owed, 1e-12);
         }
     }
+}
+
+/// A force grad Y or Y n on a sphere of radius 1, spread into a fluid at rest for one step of Re/dt = a, and the velocity that comes back:
+/// below the model's by about exp(-0.25 (k h)^2). It is 0.84 to 1.06 of it at low degrees, a sphere being no plane, and the layer of a
+/// larger viscosity (Re = 1) blurs the tangential answer less (0.16 more is seen): hence 0.2.
+TEST(MembraneResponse, IsThatOfTheFluidToASphere) {
+  constexpr int latitudes = 32, cells = 32;
+  constexpr double half = 3.0, spacing = 2 * half / cells, dt = 1.0 / 24;
+  const fluid::Grid grid({-half, -half, -half}, {half, half, half}, {cells, cells, cells});
+  const vesicle::SphereGrid mesh(latitudes);
+  vesicle::Surface surface(mesh);
+  const vesicle::VectorField positions = vesicle::sphere(mesh);
+  surface.update(positions);
+  vesicle::SphericalHarmonics harmonics(latitudes / 2, mesh, 1);
+  MarkerTransfer transfer(grid);
+  transfer.update(positions);
+  MembraneResponse model(latitudes / 2, 1.0, spacing);
+  for (const double reynolds_number : {1.0, 20.0}) {
+    model.update(reynolds_number / dt, 1.0);
+    for (const int n : {2, 5, 9})
+      for (const bool normal : {true, false}) {
+        vesicle::Coefficients one(latitudes / 2, 1);
+        one.set_zero();
+        one(0, n, 1) = 1e-6;  // no convection
+        Eigen::ArrayXXd values(positions.rows(), 1);
+        harmonics.synthesis(one, values);
+        const vesicle::ScalarField y = values.col(0);
+        vesicle::VectorField force(positions.rows(), 3), velocity(positions.rows(), 3);
+        if (normal)
+          force = surface.normal().colwise() * y;
+        else
+          surface.gradient(y, force);
+        fluid::FluidParameters parameters;
+        parameters.reynolds_number = reynolds_number;
+        fluid::NavierStokes fluid(grid, parameters, [](const fluid::Vector3&, double) { return fluid::Vector3{}; });
+        transfer.spread(force, surface.area_weight(), fluid.force());
+        fluid.step(dt);
+        transfer.interpolate(fluid.velocity(), velocity);
+        const auto product = [&](const vesicle::VectorField& a) {
+          return ((a * force).rowwise().sum() * surface.area_weight()).sum();
+        };
+        const auto& answer = normal ? model[n].normal : model[n].along;
+        const double kh = model.wavenumber(n) * spacing;
+        EXPECT_NEAR(product(velocity) / product(force) / answer.velocity, std::exp(-0.25 * kh * kh), 0.2)
+            << "degree " << n << (normal ? " normal" : " along") << ", Re " << reynolds_number;
+      }
+  }
 }
 
 /// The wider the delta function, the less a membrane moves; the shortest waves most of all.
