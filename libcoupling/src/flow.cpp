@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "coupling/errors.h"
 #include "fluid/duct_series.h"
+#include "fluid/navier_stokes.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -118,9 +120,32 @@ Flow duct(double peak, const Centre& y, const Centre& z) {
           .description = "steady duct flow, evaluated once"};
 }
 
-}  // namespace
+// Distance of the box's farthest point from the origin along an axis.
+double reach(const Scene& scene, std::size_t axis) {
+  return std::max(std::abs(scene.domain.lower[axis]), std::abs(scene.domain.upper[axis]));
+}
 
-Flow flow_of(const Scene& scene) {
+double greatest_speed(const Scene& scene) {
+  const Scene::Flow& flow = scene.flow;
+  switch (flow.type) {
+    case FlowType::shear:
+    case FlowType::oscillating_shear:
+      return std::abs(flow.rate) * reach(scene, 2);
+    case FlowType::extension:
+      return std::abs(flow.rate) * (flow.extension == Extension::planar
+                                        ? std::max(reach(scene, 0), reach(scene, 2))
+                                        : std::max({reach(scene, 0), reach(scene, 1) / 2, reach(scene, 2) / 2}));
+    case FlowType::plane_poiseuille:
+    case FlowType::duct:
+      return std::abs(flow.peak_velocity);
+    case FlowType::rest:
+    case FlowType::custom:
+      break;
+  }
+  return 0.0;
+}
+
+Flow named_flow(const Scene& scene) {
   const Scene::Flow& flow = scene.flow;
   switch (flow.type) {
     case FlowType::rest:
@@ -142,6 +167,24 @@ Flow flow_of(const Scene& scene) {
       "flow.type = \"custom\": stands for the flow of a program of one's own (docs/first_app.md); a scene file can "
       "name "
       "rest, shear, oscillating_shear, extension, plane_poiseuille or duct");
+}
+
+}  // namespace
+
+Flow flow_of(const Scene& scene) {
+  Flow flow = named_flow(scene);
+  flow.greatest_speed = greatest_speed(scene);
+  return flow;
+}
+
+double stable_convection_step(const Scene& scene) {
+  if (scene.fluid.inertia != fluid::Inertia::full) return std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double h = (scene.domain.upper[axis] - scene.domain.lower[axis]) / scene.domain.cells[axis];
+    least = std::min(least, fluid::stable_convection_step(greatest_speed(scene), h, scene.fluid.reynolds_number));
+  }
+  return least;
 }
 
 Flow custom_flow(const fluid::BoundaryVelocity& velocity, bool steady) {

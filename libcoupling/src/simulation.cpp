@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "coupling/errors.h"
+#include "coupling/flow.h"
 #include "coupling/overlap.h"
 #include "external_forces.h"
 #include "fluid/operators.h"
@@ -38,6 +39,9 @@ fluid::FluidParameters fluid_parameters_of(const Scene& scene, const ViscosityCo
 }
 
 std::string blow_up_advice(const Scene& scene) {
+  if (const double convection = stable_convection_step(scene); !scene.time.adaptive && scene.time.step > convection)
+    return fmt::format("the explicit convection is unstable for time.step above about {:.3g} near the walls: reduce it",
+                       convection);
   const double limit = scene.stable_tension_number();
   if (!std::isfinite(limit))
     return "reduce time.step, or the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too "

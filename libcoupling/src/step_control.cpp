@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "coupling/flow.h"
+
 namespace vesiflow::coupling {
 namespace {
 
@@ -17,9 +19,9 @@ constexpr double after_failure = 0.25;                // nothing is known of the
 // Nothing is known of the error of the first step: it should at least be stable.
 double first_step(const Scene& scene) {
   const double stable = 0.5 * scene.stable_tension_number();
-  if (!std::isfinite(stable)) return scene.time.step;
-  const double shortening = std::min(1.0, stable / std::max(scene.tension_number(), stable));
-  return std::max(scene.time.smallest_step, scene.time.step * shortening);
+  const double shortening =
+      std::isfinite(stable) ? std::min(1.0, stable / std::max(scene.tension_number(), stable)) : 1.0;
+  return std::max(scene.time.smallest_step, std::min(scene.time.step * shortening, stable_convection_step(scene)));
 }
 
 }  // namespace
@@ -29,7 +31,7 @@ StepControl::StepControl(const Scene& scene)
       area_limit_(scene.limits.area_error),
       volume_limit_(scene.limits.volume_error),
       smallest_(scene.time.smallest_step),
-      largest_(scene.time.largest_step),
+      largest_(std::max(smallest_, std::min(scene.time.largest_step, stable_convection_step(scene)))),
       end_(scene.time.end),
       step_(first_step(scene)) {}
 

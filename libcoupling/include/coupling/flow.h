@@ -24,6 +24,7 @@ struct Flow {
   /// Uniform force density -dp/dx that takes the place of the pressure drop where axis 0 is periodic: mu_o Lap u.
   double driving_force = 0.0;
   double greatest_gradient = 0.0;  ///< of a velocity component along an axis, anywhere in the box at any time
+  double greatest_speed = 0.0;     ///< of a velocity component, likewise; 0 if not known
   double angular_frequency = 0.0;
   std::string description;  ///< one line, for people
 };
@@ -34,5 +35,9 @@ Flow flow_of(const Scene& scene);
 
 /// A flow of one's own. Nothing is known of it, so nothing of it is checked.
 Flow custom_flow(const fluid::BoundaryVelocity& velocity, bool steady);
+
+/// Largest time step at which the explicit convection of the scene's flow is stable (fluid::stable_convection_step); infinite without
+/// inertia, and where nothing is known of the flow.
+double stable_convection_step(const Scene& scene);
 
 }  // namespace vesiflow::coupling
