@@ -131,6 +131,8 @@ struct Scene {
     double absolute_tolerance = 1e-6;
     FluidVelocity fluid_velocity = FluidVelocity::frozen;
     double relaxation = 0.25;  ///< a of markers = strain_relaxation
+    double implicit_tolerance = 1e-5;  ///< of markers = implicit: largest change that ends the iteration, in radii
+    int implicit_iterations = 100;     ///< and the most evaluations of the coupled problem in a step
     bool adaptive = false;     ///< steps are chosen by their errors; `step` is the first
     double tolerance = 2e-5;   ///< position error per step, root mean square over the markers, in effective radii
     double smallest_step = 1e-5;
@@ -167,6 +169,8 @@ struct Scene {
   double viscosity_ratio(std::size_t vesicle) const;
   /// Whether the viscosity is another one inside some vesicle. If not, there is no field of it and no indicator.
   bool has_viscosity_contrast() const;
+  /// Whether meshes follow the shapes and not the material.
+  bool follows_shape() const;
   /// Steps of equal length from 0 to time.end, the last one at or just beyond it.
   long steps() const;
 };
