@@ -39,9 +39,9 @@ class ImplicitMotion final : public ShapeFollowing {
  private:
   void find_scales(double dt);
 
-  Gmres::Vector trial_, improved_, scales_;                   // scales: unknown over coefficient
-  Gmres::Vector state_coefficients_, last_coefficients_;      // y^k, d^k
-  bool has_stiffness_ = false;                                // of this step
+  Gmres::Vector trial_, improved_, scales_;               // scales: unknown over coefficient
+  Gmres::Vector state_coefficients_, last_coefficients_;  // y^k, d^k
+  bool has_stiffness_ = false;                            // of this step
   long evaluations_ = 0;
 };
 

@@ -37,8 +37,8 @@ void ImplicitStep::take(double dt, const std::function<void(bool again)>& evalua
   try {
     fixed_point_->solve(map, increments_);
   } catch (const NoFixedPoint& error) {
-    throw std::domain_error(fmt::format("the implicit step was not solved: {} (time.implicit_iterations, time.implicit_tolerance)",
-                                        error.what()));
+    throw std::domain_error(fmt::format(
+        "the implicit step was not solved: {} (time.implicit_iterations, time.implicit_tolerance)", error.what()));
   }
   for_each_part(std::span<const double>(increments_), [&](std::size_t i, auto part) {
     motions_[i]->accept(dt, part, vesicles_[i]->membrane);

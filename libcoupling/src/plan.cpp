@@ -169,8 +169,8 @@ std::string describe_markers(const Scene& scene) {
   if (time.markers == "strain_relaxation")
     return fmt::format("euler, strain relaxed by {:g} in a step", time.relaxation);
   if (time.markers == "implicit")
-    return fmt::format("implicit, by fixed-point iteration to {:g} of a radius, at most {} times", time.implicit_tolerance,
-                       time.implicit_iterations);
+    return fmt::format("implicit, by fixed-point iteration to {:g} of a radius, at most {} times",
+                       time.implicit_tolerance, time.implicit_iterations);
   if (time.markers != "arkode") return time.markers;
   return fmt::format("arkode, tolerance {:g}, fluid velocity {} within a step", time.absolute_tolerance,
                      time.fluid_velocity == FluidVelocity::frozen ? "frozen" : "interpolated");

@@ -156,10 +156,10 @@ void check_tension(const Scene& scene, const std::string& name) {
                     "it to \"none\", or take another way to move the markers",
                     name, scene.time.markers));
   if (scene.follows_shape() && scene.membrane.integral_rate > 0.0)
-    throw SceneError(fmt::format(
-        "{}: membrane.integral_rate = {:g}: time.markers = \"{}\" keeps the area without it; set "
-        "it to 0, or take another way to move the markers",
-        name, scene.membrane.integral_rate, scene.time.markers));
+    throw SceneError(
+        fmt::format("{}: membrane.integral_rate = {:g}: time.markers = \"{}\" keeps the area without it; set "
+                    "it to 0, or take another way to move the markers",
+                    name, scene.membrane.integral_rate, scene.time.markers));
   if (!scene.membrane.g) return;
   const double meant = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
   if (std::abs(meant - scene.membrane.sigma0) > 5e-3 * meant)

@@ -7,7 +7,8 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::string_view marker_motions[] = {"euler", "ab2", "arkode", "strain_relaxation", "shape_following", "implicit"};
+constexpr std::string_view marker_motions[] = {"euler",           "ab2",     "arkode", "strain_relaxation",
+                                               "shape_following", "implicit"};
 constexpr Range latitudes{.low = 8, .high = 256};
 // What has been tried, in libfluid and here.
 const Range viscosity_ratios = Range::between(0.05, 100.0);

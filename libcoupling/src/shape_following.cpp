@@ -200,7 +200,8 @@ void ShapeFollowing::find_rates(const Surface& surface) {
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
   const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
   const double viscosity = has_inertia_ ? explicit_viscosity_ / solved_viscosity_ * (solved_viscosity_ - 1.0) : 0.0;
-  const double c = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
+  const double lagging = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
+  const double c = overestimate_.value_or(lagging);
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
   double variance = 0.0;
   if (has_tension()) {

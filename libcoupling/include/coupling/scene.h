@@ -130,11 +130,11 @@ struct Scene {
     double relative_tolerance = 0.0;  ///< of markers = arkode
     double absolute_tolerance = 1e-6;
     FluidVelocity fluid_velocity = FluidVelocity::frozen;
-    double relaxation = 0.25;  ///< a of markers = strain_relaxation
+    double relaxation = 0.25;          ///< a of markers = strain_relaxation
     double implicit_tolerance = 1e-5;  ///< of markers = implicit: largest change that ends the iteration, in radii
     int implicit_iterations = 100;     ///< and the most evaluations of the coupled problem in a step
-    bool adaptive = false;     ///< steps are chosen by their errors; `step` is the first
-    double tolerance = 2e-5;   ///< position error per step, root mean square over the markers, in effective radii
+    bool adaptive = false;             ///< steps are chosen by their errors; `step` is the first
+    double tolerance = 2e-5;  ///< position error per step, root mean square over the markers, in effective radii
     double smallest_step = 1e-5;
     double largest_step = 0.1;
   } time;

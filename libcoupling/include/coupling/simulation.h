@@ -144,8 +144,8 @@ class Simulation {
   std::vector<Redistribution> last_redistributions_;
   PhaseSeconds seconds_;
   std::unique_ptr<ImplicitStep> implicit_step_;  ///< of time.markers = "implicit"
-  std::unique_ptr<StepControl> step_control_;  ///< of adaptive steps
-  std::vector<VesicleState> remembered_;       ///< before the step that is tried
+  std::unique_ptr<StepControl> step_control_;    ///< of adaptive steps
+  std::vector<VesicleState> remembered_;         ///< before the step that is tried
   long rejected_steps_ = 0;
 };
 
