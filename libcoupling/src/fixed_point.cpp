@@ -4,6 +4,7 @@
 #include <kinsol/kinsol.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <stdexcept>
 
@@ -31,7 +32,7 @@ class Kinsol final : public FixedPoint {
     check(KINSetErrHandlerFn(memory_.get(), keep_message, &message_));
     check(KINSetUserData(memory_.get(), this));
     check(KINSetNumMaxIters(memory_.get(), limits.evaluations));
-    check(KINSetMAA(memory_.get(), std::min(remembered_iterates, limits.evaluations - 1)));
+    check(KINSetMAA(memory_.get(), std::min({remembered_iterates, limits.evaluations - 1, static_cast<int>(size)})));
     check(KINInit(memory_.get(), evaluate, x_.get()));
     check(KINSetFuncNormTol(memory_.get(), limits.tolerance));
     check(KINSetReturnNewest(memory_.get(), SUNTRUE));
@@ -52,6 +53,9 @@ class Kinsol final : public FixedPoint {
     }
     check(flag);
     std::ranges::copy(values(x_.get()), x.begin());
+    // KINSOL's norm of what is not finite may be zero.
+    if (!std::ranges::all_of(x, [](double value) { return std::isfinite(value); }))
+      throw NoFixedPoint("the iterates are not finite");
   }
 
  private:
