@@ -163,7 +163,7 @@ struct Scene {
   /// vesicle.
   double tension_number() const;
   /// The largest g for which time.markers is stable, cautiously: 7, (2 - a)/a times that with strain relaxation, and infinity
-  /// with shape_following.
+  /// with shape_following and implicit.
   double stable_tension_number() const;
   /// lambda = mu_i/mu_o of a vesicle: its own, or else that of the fluid.
   double viscosity_ratio(std::size_t vesicle) const;
