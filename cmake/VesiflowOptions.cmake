@@ -4,7 +4,7 @@ set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
 option(VESIFLOW_NATIVE "Use this machine's vector instructions (-march=native)" ON)
 option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (libcoupling)" ON)
 option(VESIFLOW_WITH_CHOLMOD "Build the sparse direct solver, for small elliptic problems (libfluid)" ON)
-option(VESIFLOW_WITH_SUNDIALS "Build what uses SUNDIALS: time.markers = arkode (libcoupling), methods kinsol and cvode (app equilibrium_shape)" ON)
+option(VESIFLOW_WITH_SUNDIALS "Build what uses SUNDIALS: time.markers = arkode and implicit (libcoupling), methods kinsol and cvode (app equilibrium_shape)" ON)
 option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
 option(VESIFLOW_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/marker_integrator.h"
+#include "implicit_motion.h"
 #include "shape_following.h"
 #include "step_error.h"
 
@@ -106,6 +107,7 @@ class MaterialMotion final : public MembraneMotion {
 std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::size_t vesicle,
                                                      const vesicle::Membrane& membrane) {
   if (scene.time.markers == "shape_following") return std::make_unique<ShapeFollowing>(scene, vesicle, membrane);
+  if (scene.time.markers == "implicit") return std::make_unique<ImplicitMotion>(scene, vesicle, membrane);
   return std::make_unique<MaterialMotion>(scene, membrane);
 }
 

@@ -168,6 +168,9 @@ std::string describe_markers(const Scene& scene) {
   const Scene::Time& time = scene.time;
   if (time.markers == "strain_relaxation")
     return fmt::format("euler, strain relaxed by {:g} in a step", time.relaxation);
+  if (time.markers == "implicit")
+    return fmt::format("implicit, by fixed-point iteration to {:g} of a radius, at most {} times",
+                       time.implicit_tolerance, time.implicit_iterations);
   if (time.markers != "arkode") return time.markers;
   return fmt::format("arkode, tolerance {:g}, fluid velocity {} within a step", time.absolute_tolerance,
                      time.fluid_velocity == FluidVelocity::frozen ? "frozen" : "interpolated");
@@ -217,14 +220,15 @@ void describe_step(Plan& plan, const Scene& scene) {
     plan.part(driving != 0.0, "driving force", fmt::format("uniform, {:.4g} along x", driving),
               "walls drive the flow, or nothing does");
   }
-  const bool follows = scene.time.markers == "shape_following";
+  const bool follows = scene.follows_shape();
+  const bool implicit = scene.time.markers == "implicit";
   plan.part(!follows, "mesh control",
             fmt::format("{}: normal velocity {} degrees, tangential {}",
                         scene.mesh.filter == vesicle::FilterOrder::velocity_first
                             ? "velocity filtered, then split"
                             : "normal and tangential parts filtered apart",
                         normal, scene.mesh.tangential_degrees),
-            "time.markers = \"shape_following\": the mesh follows the shape");
+            fmt::format("time.markers = \"{}\": the mesh follows the shape", scene.time.markers));
   plan.part(scene.mesh.redistribute == Redistribute::when_needed, "redistribution",
             fmt::format("along the membrane, when its aspect ratio is above {:g} or the spectrum's tail above {:g}",
                         scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
@@ -236,13 +240,14 @@ void describe_step(Plan& plan, const Scene& scene) {
             "membrane.area is not \"projection\"");
   plan.part(true, "markers", describe_markers(scene), "");
   plan.part(follows && tension, "strain field",
-            "implicit in tension and bending, momentum of its corrections owed to the fluid",
+            implicit ? "with forces and velocities of the new time"
+                     : "implicit in tension and bending, momentum of its corrections owed to the fluid",
             follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
   plan.part(tension && !follows, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"
                 : "Eqs. (32), (33), slip against the interpolated velocity (paper)",
-            follows ? "time.markers = \"shape_following\"" : "membrane.sigma0 = 0");
+            follows ? fmt::format("time.markers = \"{}\"", scene.time.markers) : "membrane.sigma0 = 0");
 }
 
 void describe_output(Plan& plan, const Scene& scene) {

@@ -55,11 +55,11 @@ void check_time(const Scene& scene, const std::string& name) {
 
 void check_time_keys(const Scene& scene, const std::string& name) {
   const Scene::Time& time = scene.time;
-  if (time.markers == "arkode" && !have_sundials())
+  if ((time.markers == "arkode" || time.markers == "implicit") && !have_sundials())
     throw SceneError(
-        fmt::format("{}: time.markers = \"arkode\": this build has no SUNDIALS; configure with "
+        fmt::format("{}: time.markers = \"{}\": this build has no SUNDIALS; configure with "
                     "-DVESIFLOW_WITH_SUNDIALS=ON, or take another of time.markers",
-                    name));
+                    name, time.markers));
   if (time.fluid_velocity == FluidVelocity::interpolated && time.markers != "arkode")
     throw SceneError(fmt::format(
         "{}: time.fluid_velocity = \"interpolated\": goes with time.markers = \"arkode\", the only one that "
@@ -115,7 +115,7 @@ void check_physics(const Scene& scene, const std::string& name) {
 // A membrane that is thin answers faster: too fast for an explicit tension that is right for a thick one.
 void check_thickness(const Scene& scene, const std::string& name) {
   constexpr double largest = 3.0;
-  if (!scene.coupling.thickness_correction || scene.time.markers == "shape_following") return;
+  if (!scene.coupling.thickness_correction || scene.follows_shape()) return;
   if (scene.tension_number() > largest)
     throw SceneError(fmt::format(
         "{}: coupling.thickness_correction = true: with it the explicit tension is stable below g = time.step "
@@ -145,21 +145,21 @@ void check_degrees(const Scene& scene, std::size_t i, const std::string& name) {
                                    scene.latitudes(i)));
   };
   check("mesh.normal_degrees", scene.mesh.normal_degrees);
-  if (scene.time.markers != "shape_following") check("mesh.tangential_degrees", scene.mesh.tangential_degrees);
+  if (!scene.follows_shape()) check("mesh.tangential_degrees", scene.mesh.tangential_degrees);
 }
 
 void check_tension(const Scene& scene, const std::string& name) {
-  if (scene.time.markers == "shape_following" && scene.membrane.area == vesicle::AreaControl::penalty)
+  if (scene.follows_shape() && scene.membrane.area == vesicle::AreaControl::penalty)
     throw SceneError(
-        fmt::format("{}: membrane.area = \"penalty\": time.markers = \"shape_following\" keeps the area exactly where "
+        fmt::format("{}: membrane.area = \"penalty\": time.markers = \"{}\" keeps the area exactly where "
                     "there is tension; set "
                     "it to \"none\", or take another way to move the markers",
-                    name));
-  if (scene.time.markers == "shape_following" && scene.membrane.integral_rate > 0.0)
-    throw SceneError(fmt::format(
-        "{}: membrane.integral_rate = {:g}: time.markers = \"shape_following\" keeps the area without it; set "
-        "it to 0, or take another way to move the markers",
-        name, scene.membrane.integral_rate));
+                    name, scene.time.markers));
+  if (scene.follows_shape() && scene.membrane.integral_rate > 0.0)
+    throw SceneError(
+        fmt::format("{}: membrane.integral_rate = {:g}: time.markers = \"{}\" keeps the area without it; set "
+                    "it to 0, or take another way to move the markers",
+                    name, scene.membrane.integral_rate, scene.time.markers));
   if (!scene.membrane.g) return;
   const double meant = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
   if (std::abs(meant - scene.membrane.sigma0) > 5e-3 * meant)
@@ -277,6 +277,10 @@ double Scene::viscosity_ratio(std::size_t vesicle) const {
   return vesicles.at(vesicle).viscosity_ratio.value_or(fluid.viscosity_ratio);
 }
 
+bool Scene::follows_shape() const {
+  return time.markers == "shape_following" || time.markers == "implicit";
+}
+
 bool Scene::has_viscosity_contrast() const {
   for (std::size_t i = 0; i < vesicles.size(); ++i)
     if (viscosity_ratio(i) != 1.0) return true;
@@ -284,7 +288,7 @@ bool Scene::has_viscosity_contrast() const {
 }
 
 double Scene::stable_tension_number() const {
-  if (time.markers == "shape_following") return std::numeric_limits<double>::infinity();
+  if (follows_shape()) return std::numeric_limits<double>::infinity();
   constexpr double without_relaxation = 7.0;
   return without_relaxation * (time.markers == "strain_relaxation" ? (2.0 - time.relaxation) / time.relaxation : 1.0);
 }

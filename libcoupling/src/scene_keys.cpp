@@ -7,7 +7,8 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::string_view marker_motions[] = {"euler", "ab2", "arkode", "strain_relaxation", "shape_following"};
+constexpr std::string_view marker_motions[] = {"euler",           "ab2",     "arkode", "strain_relaxation",
+                                               "shape_following", "implicit"};
 constexpr Range latitudes{.low = 8, .high = 256};
 // What has been tried, in libfluid and here.
 const Range viscosity_ratios = Range::between(0.05, 100.0);
@@ -126,6 +127,8 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.number("time.absolute_tolerance", scene.time.absolute_tolerance, Range::positive());
   choice_of(v, "time.fluid_velocity", scene.time.fluid_velocity, {"frozen", "interpolated"});
   v.number("time.relaxation", scene.time.relaxation, {.low = 0.0, .high = 1.0, .low_open = true});
+  v.number("time.implicit_tolerance", scene.time.implicit_tolerance, Range::positive());
+  v.integer("time.implicit_iterations", scene.time.implicit_iterations, Range::from(2));
   v.boolean("time.adaptive", scene.time.adaptive);
   v.number("time.tolerance", scene.time.tolerance, Range::positive());
   v.number("time.smallest_step", scene.time.smallest_step, Range::positive());

@@ -34,11 +34,11 @@ constexpr double safety = 1.5, safety_with_inertia = 3.0;
 // More where part of the viscosity is explicit: 10 at ratio 20, where 3 is unstable at dt = 1/48, and 3 at ratio 5.
 constexpr double safety_per_ratio = 1.0;
 
-Eigen::Map<Eigen::VectorXd> as_vector(Coefficients& c) {
+}  // namespace
+
+Eigen::Map<Eigen::VectorXd> ShapeFollowing::as_vector(Coefficients& c) {
   return {reinterpret_cast<double*>(c.block(0, 0)), Eigen::Index(c.fields()) * c.degrees() * (c.degrees() + 1)};
 }
-
-}  // namespace
 
 int ShapeFollowing::resolved_degrees(const Scene& scene, std::size_t vesicle, double radius) {
   const int latitudes = scene.latitudes(vesicle);
@@ -136,9 +136,13 @@ void ShapeFollowing::advance(double dt, const VelocityAt& velocity_at, vesicle::
   find_rates(surface);
   find_stiffness(dt, surface);
   solve_increment(dt);
-  estimate_error(step_ratio(dt));
-  conserve(surface);
+  finish(dt, membrane);
+}
 
+// The end of a step whose increment is known, and its second difference in `theta_`.
+void ShapeFollowing::finish(double dt, vesicle::Membrane& membrane) {
+  estimate_error(step_ratio(dt));
+  conserve(membrane.surface());
   state_ += increment_;
   previous_dt_ = dt;
   ++steps_;
@@ -196,7 +200,8 @@ void ShapeFollowing::find_rates(const Surface& surface) {
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
   const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
   const double viscosity = has_inertia_ ? explicit_viscosity_ / solved_viscosity_ * (solved_viscosity_ - 1.0) : 0.0;
-  const double c = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
+  const double lagging = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
+  const double c = overestimate_.value_or(lagging);
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
   double variance = 0.0;
   if (has_tension()) {
@@ -221,8 +226,6 @@ void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
 // Solves for d^{k+1} - r d^k, which is small: the right-hand side is (a1 - a0 r) d^k + dt (rates - damping y*).
 void ShapeFollowing::solve_increment(double dt) {
   const double r = step_ratio(dt);
-  slip_theta_ *= dt;
-  slip_phi_ *= dt;
   harmonics_.analysis(predicted_, predicted_coefficients_);
   harmonics_.analysis(increment_, increment_coefficients_);
   harmonics_.analysis(rates_, coefficients_);
@@ -231,6 +234,19 @@ void ShapeFollowing::solve_increment(double dt) {
       for (int f = 0; f < fields(); ++f)
         coefficients_(f, n, m) -= stiffness_[static_cast<std::size_t>(n)].damping * predicted_coefficients_(f, n, m);
   right_side_ = (last_ - leading_ * r) * as_vector(increment_coefficients_) + dt * as_vector(coefficients_);
+  solve_implicit_terms(dt);
+
+  as_vector(coefficients_) = solution_;
+  if (has_inertia_) keep_corrections();
+  harmonics_.synthesis(coefficients_, theta_);
+  as_vector(coefficients_) += r * as_vector(increment_coefficients_);
+  harmonics_.synthesis(coefficients_, increment_);
+}
+
+// Solves (a0 + Z + dt (damping + w.grad)) `solution_` = `right_side_`.
+void ShapeFollowing::solve_implicit_terms(double dt) {
+  slip_theta_ *= dt;
+  slip_phi_ *= dt;
   for (int n = 0; n < harmonics_.degrees(); ++n) {
     const Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
     for (int m = 0; m <= n; ++m)
@@ -246,12 +262,6 @@ void ShapeFollowing::solve_increment(double dt) {
     throw std::domain_error(
         "the implicit slip of the mesh was not found: the membrane is swept along by too many of its waves in a "
         "step; reduce time.step");
-
-  as_vector(coefficients_) = solution_;
-  if (has_inertia_) keep_corrections();
-  harmonics_.synthesis(coefficients_, theta_);
-  as_vector(coefficients_) += r * as_vector(increment_coefficients_);
-  harmonics_.synthesis(coefficients_, increment_);
 }
 
 // x + (a0 + Z)^{-1} dt w.grad x.

@@ -32,7 +32,7 @@ namespace vesiflow::coupling {
 /// directions (correct_displacement). s is then the Lagrange multiplier of its own equation. Near spheres, where both cannot be kept,
 /// the volume is: below an excess area of 1e-3 of the sphere's, or where H varies by less than 3 %. Degrees kept: those the fluid's
 /// grid resolves, k h < 0.7 pi, and n < 2N/3; the highest are damped a little (their waves would grow on the slip).
-class ShapeFollowing final : public MembraneMotion {
+class ShapeFollowing : public MembraneMotion {
  public:
   ShapeFollowing(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane);
 
@@ -52,9 +52,12 @@ class ShapeFollowing final : public MembraneMotion {
   /// Degrees of the spherical harmonics that positions and strain keep.
   static int resolved_degrees(const Scene& scene, std::size_t vesicle, double radius);
 
- private:
+ protected:
   // Columns of a state: X, and s if there is tension.
   using State = Eigen::ArrayXXd;
+
+  // Real and imaginary parts.
+  static Eigen::Map<Eigen::VectorXd> as_vector(vesicle::Coefficients& c);
 
   bool has_tension() const { return sigma0_ > 0.0; }
   int fields() const { return has_tension() ? 4 : 3; }
@@ -65,14 +68,17 @@ class ShapeFollowing final : public MembraneMotion {
   void find_rates(const vesicle::Surface& surface);
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
+  void solve_implicit_terms(double dt);
   vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
   void conserve(const vesicle::Surface& surface);
   void estimate_error(double ratio);
+  void finish(double dt, vesicle::Membrane& membrane);
   void keep_corrections();
   void find_owed_force(double dt, const vesicle::Surface& surface);
   void apply_operator(const Gmres::Vector& x, Gmres::Vector& result);
 
   double sigma0_, bending_, reynolds_number_, radius_;
+  std::optional<double> overestimate_;  // Z over the rates of MembraneResponse, if not what a step with a lag needs
   double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
   bool has_inertia_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
   vesicle::SphericalHarmonics harmonics_;

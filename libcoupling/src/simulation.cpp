@@ -11,6 +11,7 @@
 #include "external_forces.h"
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
+#include "implicit_step.h"
 #include "phase_timer.h"
 #include "step_control.h"
 #include "viscosity_contrast.h"
@@ -104,6 +105,7 @@ Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
     for (std::size_t i = 0; i < vesicles_.size(); ++i)
       redistributions_.try_emplace(scene_.latitudes(i), scene_.latitudes(i), moving_degrees(scene_, i));
   last_redistributions_.reserve(vesicles_.size());
+  if (scene_.time.markers == "implicit") implicit_step_ = std::make_unique<ImplicitStep>(scene_, vesicles_);
   if (scene_.time.adaptive) step_control_ = std::make_unique<StepControl>(scene_);
   for (auto& v : vesicles_) v->interpolate(time_step(), fluid_.velocity());
 }
@@ -125,21 +127,41 @@ void Simulation::step() {
 void Simulation::take_step(double dt) {
   compute_forces(dt);  // Steps 1 and 2: coefficients, geometry, forces, spreading
   update_viscosity();
+  if (implicit_step_) return solve_step(dt);
   advance_fluid(dt);  // Step 3: Navier-Stokes
   move_markers(dt);   // Steps 4 and 5: interpolation, mesh control, markers, target areas
 }
 
+// Steps 1 to 5 with forces at the new state, again and again until it answers to itself.
+void Simulation::solve_step(double dt) {
+  fluid_.remember();
+  implicit_step_->take(dt, [&](bool again) {
+    if (again) {
+      fluid_.retry();
+      spread_forces();
+    }
+    advance_fluid(dt);
+    move_markers(dt);
+  });
+}
+
 void Simulation::compute_forces(double dt) {
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    const PhaseTimer timer(seconds_.membrane);
+    vesicles_[i]->predict(dt);
+    check_limits(i);
+  }
+  spread_forces();
+}
+
+void Simulation::spread_forces() {
   {
     const PhaseTimer timer(seconds_.spread);
     for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
   }
   {
     const PhaseTimer timer(seconds_.membrane);
-    for (std::size_t i = 0; i < vesicles_.size(); ++i) {
-      vesicles_[i]->predict(dt);
-      check_limits(i);
-    }
+    for (auto& v : vesicles_) v->update();
     external_forces_->compute();
   }
   const PhaseTimer timer(seconds_.spread);

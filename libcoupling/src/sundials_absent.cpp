@@ -1,7 +1,8 @@
-// Stands in for arkode_integrator.cpp in builds without SUNDIALS.
+// Stands in for arkode_integrator.cpp and fixed_point.cpp in builds without SUNDIALS.
 #include <stdexcept>
 
 #include "arkode_integrator.h"
+#include "fixed_point.h"
 
 namespace vesiflow::coupling {
 
@@ -12,6 +13,11 @@ bool have_sundials() {
 std::unique_ptr<MarkerIntegrator> make_arkode_integrator(std::size_t, const MarkerTolerances&) {
   throw std::invalid_argument(
       "marker integrator 'arkode': this build has no SUNDIALS; configure with -DVESIFLOW_WITH_SUNDIALS=ON");
+}
+
+std::unique_ptr<FixedPoint> make_fixed_point(std::size_t, const FixedPoint::Limits&) {
+  throw std::invalid_argument(
+      "the implicit step: this build has no SUNDIALS; configure with -DVESIFLOW_WITH_SUNDIALS=ON");
 }
 
 }  // namespace vesiflow::coupling

@@ -209,8 +209,19 @@ TEST(Scene, RefusesTimeKeysThatDoNotGoTogether) {
   expect_parts(message_of(sphere, {"time.step=1/24", "time.markers=strain_relaxation"}), {"accepted"});
   expect_parts(message_of(sphere, {"time.step=1/24", "membrane.integral_rate=5"}),
                {"membrane.integral_rate = 5", "shape_following"});
-  if (!have_sundials())
-    expect_parts(message_of(sphere, {"time.markers=arkode"}), {"time.markers", "VESIFLOW_WITH_SUNDIALS"});
+  if (have_sundials()) {
+    const auto implicit = [](const char* key) {
+      return message_of(sphere, {"time.markers=implicit", "time.step=1/24", key});
+    };
+    EXPECT_EQ(implicit("time.implicit_iterations=2"), "accepted");
+    expect_parts(implicit("time.implicit_iterations=1"), {"time.implicit_iterations = 1", ">= 2"});
+    expect_parts(implicit("time.implicit_tolerance=0.0"), {"time.implicit_tolerance = 0", "> 0"});
+    expect_parts(implicit("membrane.integral_rate=5"), {"membrane.integral_rate = 5", "\"implicit\""});
+    expect_parts(implicit("membrane.area=penalty"), {"membrane.area = \"penalty\"", "\"implicit\""});
+  } else {
+    for (const char* markers : {"arkode", "implicit"})
+      expect_parts(message_of(sphere, {std::string("time.markers=") + markers}), {markers, "VESIFLOW_WITH_SUNDIALS"});
+  }
 }
 
 TEST(Scene, RefusesFilesThatCannotBeReadOrAreNotToml) {

@@ -130,9 +130,11 @@ struct Scene {
     double relative_tolerance = 0.0;  ///< of markers = arkode
     double absolute_tolerance = 1e-6;
     FluidVelocity fluid_velocity = FluidVelocity::frozen;
-    double relaxation = 0.25;  ///< a of markers = strain_relaxation
-    bool adaptive = false;     ///< steps are chosen by their errors; `step` is the first
-    double tolerance = 2e-5;   ///< position error per step, root mean square over the markers, in effective radii
+    double relaxation = 0.25;          ///< a of markers = strain_relaxation
+    double implicit_tolerance = 1e-5;  ///< of markers = implicit: largest change that ends the iteration, in radii
+    int implicit_iterations = 100;     ///< and the most evaluations of the coupled problem in a step
+    bool adaptive = false;             ///< steps are chosen by their errors; `step` is the first
+    double tolerance = 2e-5;  ///< position error per step, root mean square over the markers, in effective radii
     double smallest_step = 1e-5;
     double largest_step = 0.1;
   } time;
@@ -161,12 +163,14 @@ struct Scene {
   /// vesicle.
   double tension_number() const;
   /// The largest g for which time.markers is stable, cautiously: 7, (2 - a)/a times that with strain relaxation, and infinity
-  /// with shape_following.
+  /// with shape_following and implicit.
   double stable_tension_number() const;
   /// lambda = mu_i/mu_o of a vesicle: its own, or else that of the fluid.
   double viscosity_ratio(std::size_t vesicle) const;
   /// Whether the viscosity is another one inside some vesicle. If not, there is no field of it and no indicator.
   bool has_viscosity_contrast() const;
+  /// Whether meshes follow the shapes and not the material.
+  bool follows_shape() const;
   /// Steps of equal length from 0 to time.end, the last one at or just beyond it.
   long steps() const;
 };

@@ -52,6 +52,7 @@ struct SimulationState {
 
 struct ImmersedVesicle;
 class ExternalForces;
+class ImplicitStep;
 class StepControl;
 class ViscosityContrast;
 
@@ -124,7 +125,9 @@ class Simulation {
   bool try_step(double dt, std::string& failure);
   void remember();
   void take_back();
+  void solve_step(double dt);
   void compute_forces(double dt);
+  void spread_forces();
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
@@ -140,8 +143,9 @@ class Simulation {
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none
   std::vector<Redistribution> last_redistributions_;
   PhaseSeconds seconds_;
-  std::unique_ptr<StepControl> step_control_;  ///< of adaptive steps
-  std::vector<VesicleState> remembered_;       ///< before the step that is tried
+  std::unique_ptr<ImplicitStep> implicit_step_;  ///< of time.markers = "implicit"
+  std::unique_ptr<StepControl> step_control_;    ///< of adaptive steps
+  std::vector<VesicleState> remembered_;         ///< before the step that is tried
   long rejected_steps_ = 0;
 };
 
