@@ -23,9 +23,9 @@ double after(int steps, double speed, double reynolds_number, double dt) {
   return test::max_abs(fluid.velocity().y.points());
 }
 
-// Pe = Re U h of 0.5 to 64, h = 1/16.
+// Pe = Re U h of 0.5 to 8, h = 1/16.
 TEST(StableConvectionStep, IsThatOfTheStep) {
-  for (const double peclet : {0.5, 2.0, 8.0, 64.0}) {
+  for (const double peclet : {0.5, 2.0, 8.0}) {
     const double speed = 3.0, reynolds_number = 16 * peclet / speed;
     const double limit = stable_convection_step(speed, 1.0 / 16, reynolds_number);
     EXPECT_LT(after(400, speed, reynolds_number, 0.97 * limit), 1e-6) << peclet;
