@@ -43,6 +43,7 @@ class ShapeFollowing final : public MembraneMotion {
   const vesicle::VectorField* owed_force() const override { return owes_ ? &owed_force_ : nullptr; }
   std::optional<double> position_error() const override { return position_error_; }
 
+  MotionEntries entries() const override { return entries_; }
   MarkerStatistics statistics() const override { return {steps_, 0, steps_}; }
 
   std::span<const double> history() const override;
@@ -56,6 +57,7 @@ class ShapeFollowing final : public MembraneMotion {
   // Columns of a state: X, and s if there is tension.
   using State = Eigen::ArrayXXd;
 
+  bool keeps_something() const { return keeps_volume_ || keeps_area_; }
   bool has_tension() const { return sigma0_ > 0.0; }
   int fields() const { return has_tension() ? 4 : 3; }
   double step_ratio(double dt) const { return previous_dt_ > 0.0 ? dt / previous_dt_ : 0.0; }
@@ -66,6 +68,8 @@ class ShapeFollowing final : public MembraneMotion {
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
   vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
+  void keep_rates(const vesicle::Surface& surface, vesicle::VectorField& velocity);
+  void keep_displacement(const vesicle::Surface& surface, vesicle::VectorField& displacement);
   void conserve(const vesicle::Surface& surface);
   void estimate_error(double ratio);
   void keep_corrections();
@@ -90,6 +94,7 @@ class ShapeFollowing final : public MembraneMotion {
   int smooth_steps_ = 0;  // since a start
   bool knows_state_ = false, knows_strain_ = false;
   long steps_ = 0;
+  MotionEntries entries_;
   std::optional<double> position_error_;
 
   // Work space of a step.
