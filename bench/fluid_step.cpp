@@ -37,7 +37,7 @@ const std::vector<Case> all_cases{{"ratio 1", 1.0, ViscousTreatment::extrapolate
 
 struct Phase {
   const char* name;
-  double FluidTimings::*seconds;
+  PhaseAccount FluidTimings::*account;
 };
 const std::array<Phase, 4> phases{{{"convection", &FluidTimings::convection},
                                    {"viscous", &FluidTimings::viscous},
@@ -76,7 +76,8 @@ class Flow {
     Step result{timed([&] { fluid_.step(dt_); }), {}, 0};
     result.iterations = fluid_.report().momentum.iterations;
     for (std::size_t p = 0; p < phases.size(); ++p) {
-      result.share[p] = 1e3 * (fluid_.timings().*phases[p].seconds - before.*phases[p].seconds) / result.time.wall;
+      result.share[p] = 1e3 * ((fluid_.timings().*phases[p].account).seconds - (before.*phases[p].account).seconds) /
+                        result.time.wall;
     }
     return result;
   }

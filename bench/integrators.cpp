@@ -49,10 +49,10 @@ class Course {
   std::map<std::string, double> largest_;
 };
 
-Json phases_of(const PhaseSeconds& s) {
-  return {{"membrane", s.membrane},           {"spread", s.spread},           {"indicator", s.indicator},
-          {"convection", s.fluid_convection}, {"viscous", s.fluid_viscous},   {"momentum", s.fluid_momentum},
-          {"projection", s.fluid_projection}, {"interpolate", s.interpolate}, {"mesh", s.mesh}};
+Json phases_of(const Phases& phases) {
+  Json all;
+  visit_phases(phases, [&](const char* name, const auto& account) { all[name] = account.seconds; });
+  return all;
 }
 
 Json run(const Scene& scene, double every, long most_steps) {
@@ -77,7 +77,7 @@ Json run(const Scene& scene, double every, long most_steps) {
   result["steps"] = simulation.steps();
   result["redistributions"] = simulation.redistributions(0);
   result["cpu_seconds"] = cpu;
-  result["phase_wall_seconds"] = phases_of(simulation.phase_seconds());
+  result["phase_wall_seconds"] = phases_of(simulation.phases());
   result["largest"] = course.largest_;
   result["series"] = course.series_;
   return result;

@@ -24,18 +24,18 @@ using namespace vesiflow::bench;
 
 struct Phase {
   const char* name;
-  double PhaseSeconds::*seconds;
+  vesiflow::fluid::PhaseAccount Phases::*account;
   bool is_coupling;  // of membrane and coupling, not of the fluid
 };
-const std::array<Phase, 9> all_phases{{{"membrane", &PhaseSeconds::membrane, true},
-                                       {"spread", &PhaseSeconds::spread, true},
-                                       {"interpolate", &PhaseSeconds::interpolate, true},
-                                       {"mesh", &PhaseSeconds::mesh, true},
-                                       {"indicator", &PhaseSeconds::indicator, false},
-                                       {"convection", &PhaseSeconds::fluid_convection, false},
-                                       {"viscous", &PhaseSeconds::fluid_viscous, false},
-                                       {"momentum", &PhaseSeconds::fluid_momentum, false},
-                                       {"projection", &PhaseSeconds::fluid_projection, false}}};
+const std::array<Phase, 9> all_phases{{{"membrane", &Phases::membrane, true},
+                                       {"spread", &Phases::spread, true},
+                                       {"interpolate", &Phases::interpolate, true},
+                                       {"mesh", &Phases::mesh, true},
+                                       {"indicator", &Phases::indicator, false},
+                                       {"convection", &Phases::fluid_convection, false},
+                                       {"viscous", &Phases::fluid_viscous, false},
+                                       {"momentum", &Phases::fluid_momentum, false},
+                                       {"projection", &Phases::fluid_projection, false}}};
 
 int latitudes_for(int cells) {
   return cells < 256 ? cells / 2 : 96;
@@ -82,12 +82,13 @@ class Case {
   void measure() {
     for (int threads = 1; threads <= 2; ++threads) {
       omp_set_num_threads(threads);
-      const PhaseSeconds before = simulation_.phase_seconds();
+      const Phases before = simulation_.phases();
       Row& row = rows_[threads - 1];
       row.steps.push_back(timed([&] { simulation_.step(); }));
-      const PhaseSeconds after = simulation_.phase_seconds();
+      const Phases after = simulation_.phases();
       for (std::size_t p = 0; p < all_phases.size(); ++p) {
-        const double milliseconds = 1e3 * (after.*all_phases[p].seconds - before.*all_phases[p].seconds);
+        const double milliseconds =
+            1e3 * ((after.*all_phases[p].account).seconds - (before.*all_phases[p].account).seconds);
         row.phases[p].push_back(milliseconds);
       }
     }

@@ -21,6 +21,15 @@ function(vesiflow_compile_options target)
   endif()
 endfunction()
 
+# vesiflow_precompile(TARGET HEADER...): reads headers that most sources of the target include once for all of them, which is more than
+# half of the time of compiling one. Not with a compiler launcher: ccache would have nothing to find again. Such builds, and
+# scripts/check_headers.sh, see what a source forgets to include.
+function(vesiflow_precompile target)
+  if(NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT CMAKE_CXX_CLANG_TIDY)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+
 function(vesiflow_library name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES")
   set(target vesiflow_${name})  # "fluid" alone could meet a target of the project that includes us

@@ -11,6 +11,7 @@
 #include "coupling/flow.h"
 #include "coupling/plan.h"
 #include "coupling/run.h"
+#include "memory_use.h"
 #include "passive_waiting.h"
 
 using namespace vesiflow::coupling;
@@ -69,6 +70,7 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
     return command_line.exit(error) == 0 ? exit_code::success : exit_code::bad_input;
   }
   wait_passively(argv);
+  return_large_blocks();
 
   const std::string name = arguments.scene.empty() ? arguments.checkpoint : arguments.scene;
   const Scene scene = scene_of(arguments);

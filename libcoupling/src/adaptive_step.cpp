@@ -44,7 +44,7 @@ bool Simulation::try_step(double dt, std::string& failure) {
     StepErrors errors;
     for (std::size_t i = 0; i < vesicles_.size(); ++i) {
       ImmersedVesicle& v = *vesicles_[i];
-      const PhaseTimer timer(seconds_.membrane);
+      const PhaseTimer timer(phases_.membrane);
       const double area = v.area, volume = v.volume;  // of the geometry before the step
       v.update();
       check_limits(i);
@@ -68,15 +68,16 @@ bool Simulation::try_step(double dt, std::string& failure) {
 }
 
 void Simulation::remember() {
+  for (auto& v : vesicles_) {
+    const PhaseTimer timer(phases_.membrane);
+    v->update();
+  }
+  const PhaseTimer timer(phases_.adaptation);
   fluid_.remember();
   if (contrast_) contrast_->remember();
   remembered_.resize(vesicles_.size());
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
-    {
-      const PhaseTimer timer(seconds_.membrane);
-      v.update();
-    }
     v.area = v.membrane.surface().area();
     v.volume = v.membrane.surface().volume();
     const auto history = v.motion->history();
@@ -86,6 +87,7 @@ void Simulation::remember() {
 }
 
 void Simulation::take_back() {
+  const PhaseTimer timer(phases_.adaptation);
   fluid_.retry();
   if (contrast_) contrast_->take_back();
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {

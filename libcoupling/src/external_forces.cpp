@@ -42,9 +42,14 @@ void ExternalForces::compute() {
 
 fluid::Vector3 ExternalForces::total() const {
   fluid::Vector3 sum{};
-  for (const auto& v : vesicles_)
-    for (int axis = 0; axis < 3; ++axis)
-      sum[axis] += (v->force().col(axis) * v->membrane.surface().area_weight()).sum();
+  for (const auto& v : vesicles_) {
+    const vesicle::ScalarField& weight = v->membrane.surface().area_weight();
+    const vesicle::VectorField* owed = v->motion->owed_force();
+    for (int axis = 0; axis < 3; ++axis) {
+      sum[axis] += (v->force().col(axis) * weight).sum();
+      if (owed != nullptr) sum[axis] += (owed->col(axis) * weight).sum();
+    }
+  }
   return sum;
 }
 

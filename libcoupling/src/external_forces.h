@@ -18,10 +18,13 @@ class ExternalForces {
   ExternalForces(const Scene& scene, const fluid::Grid& grid,
                  std::span<const std::unique_ptr<ImmersedVesicle>> vesicles);
 
+  /// Whether the scene has some; without, there is nothing to compute().
+  bool any() const { return !repelled_.empty(); }
+
   /// Sets ImmersedVesicle::force of all vesicles, whose own forces are up to date.
   void compute();
 
-  /// Force of all membranes on the fluid, component by component.
+  /// Force of all membranes on the fluid, component by component, with what their motions owe it.
   fluid::Vector3 total() const;
 
  private:

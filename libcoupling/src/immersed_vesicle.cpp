@@ -54,16 +54,20 @@ void ImmersedVesicle::FlowAtMarkers::operator()(const Positions& positions, vesi
 
 void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions& positions,
                                                 vesicle::VectorField& velocity) const {
-  const PhaseTimer timer(*vesicle_.interpolation_seconds_);
-  vesicle_.transfer.update(positions);
-  vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
-  if (fraction != 1.0) {
-    vesicle::VectorField& at_start = vesicle_.at_start_;
-    at_start.resize(velocity.rows(), 3);
-    vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
-    velocity = fraction * velocity + (1.0 - fraction) * at_start;
+  {
+    const PhaseTimer timer(vesicle_.phases_->interpolate);
+    vesicle_.transfer.update(positions);
+    vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
+    if (fraction != 1.0) {
+      vesicle::VectorField& at_start = vesicle_.at_start_;
+      at_start.resize(velocity.rows(), 3);
+      vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
+      velocity = fraction * velocity + (1.0 - fraction) * at_start;
+    }
   }
-  if (vesicle_.thickness_) vesicle_.thickness_->add_to(vesicle_.membrane, velocity);
+  if (!vesicle_.thickness_) return;
+  const PhaseTimer timer(vesicle_.phases_->thickness_correction);
+  vesicle_.thickness_->add_to(vesicle_.membrane, velocity);
 }
 
 void ImmersedVesicle::update() {
@@ -79,10 +83,10 @@ void ImmersedVesicle::predict(double dt) {
 }
 
 void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity,
-                              double& interpolation_seconds) {
+                              Phases& phases) {
   previous_velocity_ = &previous_velocity;
   velocity_ = &velocity;
-  interpolation_seconds_ = &interpolation_seconds;
+  phases_ = &phases;
   motion->advance(dt, FlowAtMarkers(*this), membrane, velocities);
   is_current = false;
 }

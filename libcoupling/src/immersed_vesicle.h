@@ -6,6 +6,7 @@
 #include <span>
 
 #include "coupling/marker_transfer.h"
+#include "coupling/phases.h"
 #include "coupling/scene.h"
 #include "fluid/field.h"
 #include "membrane_motion.h"
@@ -25,9 +26,10 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
-  /// To the end of the step, in the fluid velocities of its two ends. Adds the seconds of interpolation.
+  /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts of interpolation and thickness
+  /// correction.
   void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity,
-               double& interpolation_seconds);
+               Phases& phases);
 
   /// Velocities at markers that no step has moved yet.
   void interpolate(double dt, const fluid::FaceVector& velocity);
@@ -61,7 +63,7 @@ struct ImmersedVesicle {
 
   const fluid::FaceVector* previous_velocity_ = nullptr;
   const fluid::FaceVector* velocity_ = nullptr;
-  double* interpolation_seconds_ = nullptr;
+  Phases* phases_ = nullptr;
   vesicle::VectorField at_start_;  // of the step, where that is asked for
 };
 

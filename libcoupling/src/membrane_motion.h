@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +27,11 @@ class VelocityAt {
 struct MarkerVelocities {
   vesicle::VectorField fluid;  ///< U, interpolated
   vesicle::VectorField mesh;   ///< U~, which moved the markers
+};
+
+/// Parts of a motion that a scene can switch off, and how often they were entered.
+struct MotionEntries {
+  std::int64_t strain = 0, conservation = 0;
 };
 
 /// How one membrane and its mesh move through a step (Steps 4 and 5 of the paper):
@@ -55,6 +61,9 @@ class MembraneMotion {
   /// Error of the positions that the last step added, root mean square over the markers; nothing where it is not known, as in
   /// a first step. What adaptive steps are chosen by.
   virtual std::optional<double> position_error() const { return std::nullopt; }
+
+  /// How often the motion has followed the strain, and kept volume and area, by itself: beside what the membrane has counted.
+  virtual MotionEntries entries() const { return {}; }
 
   /// What moving the markers took so far.
   virtual MarkerStatistics statistics() const { return {}; }

@@ -2,19 +2,21 @@
 
 #include <chrono>
 
+#include "fluid/phase_account.h"
+
 namespace vesiflow::coupling {
 
-/// Adds the wall seconds of its lifetime to a counter.
+/// Enters an account for its lifetime: one entry, and the wall seconds.
 class PhaseTimer {
  public:
-  explicit PhaseTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  explicit PhaseTimer(fluid::PhaseAccount& account) : account_(account), start_(Clock::now()) { ++account_.entries; }
+  ~PhaseTimer() { account_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
  private:
   using Clock = std::chrono::steady_clock;
-  double& seconds_;
+  fluid::PhaseAccount& account_;
   Clock::time_point start_;
 };
 

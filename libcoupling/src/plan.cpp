@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "cost_model.h"
 #include "coupling/flow.h"
 #include "coupling/simulation.h"
 #include "fluid/elliptic_solver.h"
+#include "memory_plan.h"
 #include "vesicle/mesh_control.h"
 #include "viscosity_plan.h"
 
@@ -17,13 +19,6 @@ namespace {
 
 std::string interval(double every) {
   return every > 0.0 ? fmt::format("every {:g}", every) : "never";
-}
-
-// Working arrays of one membrane, among them the doubled grid of the Laplacian of H and the Legendre tables.
-double membrane_bytes(int latitudes) {
-  const double markers = 2.0 * latitudes * latitudes, doubled = 4.0 * markers;
-  const double tables = 3.0 * 8.0 * (std::pow(latitudes, 3) / 2.0 + std::pow(2 * latitudes, 3));
-  return 8.0 * (70.0 * markers + 40.0 * doubled) + tables;
 }
 
 class Plan {
@@ -69,15 +64,12 @@ std::string mirrored_axes(const Scene& scene) {
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
-  double membranes = 0.0;
   int coarsest = scene.latitudes(0), finest = scene.latitudes(0);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
-    membranes += membrane_bytes(scene.latitudes(i));
     coarsest = std::min(coarsest, scene.latitudes(i));
     finest = std::max(finest, scene.latitudes(i));
   }
-  const ViscosityPlan viscosity = plan_viscosity(scene);
-  const double fluid_bytes = viscosity.fluid_bytes + viscosity.indicator_bytes;
+  const MemoryPlan memory = plan_memory(scene);
   plan.head("Resolution");
   plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
   if (scene.domain.mirror != std::array<bool, 3>{})
@@ -86,9 +78,15 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
   plan.line("time", "{}", describe_time(scene));
+  if (const double limit = stable_convection_step(scene); std::isfinite(limit))
+    plan.line("convection", "explicit, stable for time.step below about {:.3g}{}", limit,
+              scene.time.adaptive       ? "; adaptive steps stay below it"
+              : scene.time.step > limit ? "  <- WARNING: beyond it"
+                                        : "");
   plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); {}", scene.tension_number(), describe_stability(scene));
-  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f})", 1e-6 * (fluid_bytes + membranes),
-            1e-6 * fluid_bytes, 1e-6 * membranes);
+  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f})",
+            1e-6 * memory.total(), 1e-6 * memory.fluid, 1e-6 * memory.membranes, 1e-6 * memory.steps,
+            1e-6 * memory.output);
   plan.line("threads", "{}", threads);
 }
 
@@ -261,6 +259,25 @@ void describe_output(Plan& plan, const Scene& scene) {
   plan.line("checkpoint.h5", "{} and at the end, about {:.0f} MB", interval(o.checkpoint_every), 56e-6 * cells);
 }
 
+// Shares are of one thread: phases gain alike from more.
+void describe_costs(Plan& plan, const Scene& scene) {
+  const std::vector<PhaseCost> costs = estimate_costs(scene);
+  double seconds = 0.0;
+  for (const PhaseCost& cost : costs) seconds += cost.seconds;
+  plan.head(
+      fmt::format("Run time (estimate: {:.3g} s per step by one thread of a 2.6 GHz machine, docs/plan.md)", seconds));
+  for (const PhaseCost& cost : costs) {
+    if (!cost.off.empty()) {
+      plan.part(false, cost.phase.c_str(), "", cost.off);
+      continue;
+    }
+    plan.part(true, cost.phase.c_str(),
+              fmt::format("{:5.1f} %  {:8.3g} ms per step{}{}", 100.0 * cost.share, 1e3 * cost.seconds,
+                          cost.rough ? ", rough" : "", cost.key.empty() ? "" : "; off with " + cost.key),
+              "");
+  }
+}
+
 }  // namespace
 
 std::string describe_plan(const Scene& scene, int threads) {
@@ -270,6 +287,7 @@ std::string describe_plan(const Scene& scene, int threads) {
   describe_vesicles(plan, scene);
   describe_step(plan, scene);
   describe_output(plan, scene);
+  describe_costs(plan, scene);
   return plan.text();
 }
 

@@ -13,9 +13,9 @@ namespace vesiflow::coupling {
 struct RunRecord {
   std::string status = "running";
   std::optional<std::string> stop_reason;
-  long steps_taken = 0;       ///< by this process
-  double wall_seconds = 0.0;  ///< of these steps, output included
-  double output_seconds = 0.0;
+  long steps_taken = 0;      ///< by this process
+  fluid::PhaseAccount wall;  ///< of these steps, output included
+  fluid::PhaseAccount output_table, output_vesicle, output_fluid, output_checkpoint;
 };
 
 /// Makes the directory and finds out whether files can be written there, before anything is computed.

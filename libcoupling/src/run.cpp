@@ -59,6 +59,24 @@ bool due(double every, double time, double dt, bool adaptive) {
   return std::floor((time + 0.5 * dt) / every) > std::floor((time - 0.5 * dt) / every);
 }
 
+// Enters an account of output, less what is measured for it: that is a phase of its own.
+class OutputTimer {
+ public:
+  OutputTimer(fluid::PhaseAccount& account, const Simulation& simulation)
+      : account_(account), simulation_(simulation), measured_before_(measured()), timer_(account) {}
+  ~OutputTimer() { account_.seconds -= measured() - measured_before_; }
+  OutputTimer(const OutputTimer&) = delete;
+  OutputTimer& operator=(const OutputTimer&) = delete;
+
+ private:
+  double measured() const { return simulation_.phases().diagnostics.seconds; }
+
+  fluid::PhaseAccount& account_;
+  const Simulation& simulation_;
+  double measured_before_;
+  PhaseTimer timer_;
+};
+
 class Run {
  public:
   Run(Simulation& simulation, const RunOptions& options)
@@ -164,7 +182,6 @@ void Run::checkpoint() {
 
 // Writes what is due at the present time; at the end everything that is written at all.
 void Run::record(bool last) {
-  const PhaseTimer timer(record_.output_seconds);
   const Scene::Output& output = simulation_.scene().output;
   const long step = simulation_.steps();
   const double time = simulation_.time(), dt = simulation_.time_step();
@@ -173,13 +190,23 @@ void Run::record(bool last) {
     return every > 0.0 && (last || step == 0 || due(every, time, dt, adaptive));
   };
   if (wanted(output.diagnostics_every) && table_->last_step() < step) {
+    const OutputTimer timer(record_.output_table, simulation_);
     table_->write(simulation_);
     warn_of_resolution();
   }
-  if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) vesicle_snapshots_->write(simulation_);
-  if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) fluid_snapshots_->write(simulation_);
+  if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) {
+    const PhaseTimer timer(record_.output_vesicle);
+    vesicle_snapshots_->write(simulation_);
+  }
+  if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) {
+    const PhaseTimer timer(record_.output_fluid);
+    fluid_snapshots_->write(simulation_);
+  }
   const bool at_start = step == 0 && !last;  // nothing to lose yet
-  if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step) checkpoint();
+  if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step) {
+    const OutputTimer timer(record_.output_checkpoint, simulation_);
+    checkpoint();
+  }
 }
 
 // Says once for each vesicle that its mesh has become too coarse for its shape.
@@ -214,14 +241,14 @@ RunStatus Run::execute() {
   const InterruptGuard guard;
   progress_.emplace(options_.quiet, simulation_);
   try {
-    PhaseTimer timer(record_.wall_seconds);
+    PhaseTimer timer(record_.wall);
     record(simulation_.finished());
   } catch (const SimulationStopped& reason) {
     stop(reason);
   }
   while (!simulation_.finished() && !interrupt_requested) {
     try {
-      const PhaseTimer timer(record_.wall_seconds);
+      const PhaseTimer timer(record_.wall);
       simulation_.step();
       ++record_.steps_taken;
       log_redistributions();

@@ -102,7 +102,7 @@ void ShapeFollowing::start(vesicle::Membrane& membrane) {
     harmonics_.analysis(vectors_, velocity_coefficients_);
     harmonics_.synthesis(velocity_coefficients_, vectors_);
     vectors_ -= membrane.positions();
-    conservation(surface).correct_displacement(surface, vectors_);
+    if (keeps_something()) keep_displacement(surface, vectors_);
     vectors_ += membrane.positions();
   }
   state_.leftCols<3>() = vectors_;
@@ -187,11 +187,12 @@ void ShapeFollowing::find_mesh_velocity(const Surface& surface, const MarkerVelo
 // conserve() alone would add what the implicit terms have not met, unlike the increments of the past, an error of first order.
 void ShapeFollowing::find_rates(const Surface& surface) {
   vectors_ = mesh_velocity_;
-  conservation(surface).remove_rates(surface, vectors_);
+  if (keeps_something()) keep_rates(surface, vectors_);
   rates_.leftCols<3>() = vectors_;
   slip_theta_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_theta()).rowwise().sum();
   slip_phi_ = ((velocity_ - mesh_velocity_) * surface.geometry().dual_phi()).rowwise().sum();
   if (!has_tension()) return;
+  ++entries_.strain;
   surface.divergence(velocity_, divergence_);
   surface.gradient(strain_, vectors_);
   rates_.col(3) = divergence_ - ((velocity_ - mesh_velocity_) * vectors_).rowwise().sum();
@@ -281,10 +282,21 @@ vesicle::ConservationProjection& ShapeFollowing::conservation(const Surface& sur
   return both ? *volume_and_area_ : *volume_;
 }
 
+void ShapeFollowing::keep_rates(const Surface& surface, VectorField& velocity) {
+  ++entries_.conservation;
+  conservation(surface).remove_rates(surface, velocity);
+}
+
+void ShapeFollowing::keep_displacement(const Surface& surface, VectorField& displacement) {
+  ++entries_.conservation;
+  conservation(surface).correct_displacement(surface, displacement);
+}
+
 // Replaces the increment of the positions by one that ends at the right volume and area.
 void ShapeFollowing::conserve(const Surface& surface) {
+  if (!keeps_something()) return;
   vectors_ = state_.leftCols<3>() + increment_.leftCols<3>() - surface.positions();
-  conservation(surface).correct_displacement(surface, vectors_);
+  keep_displacement(surface, vectors_);
   increment_.leftCols<3>() = vectors_ + surface.positions() - state_.leftCols<3>();
 }
 

@@ -43,6 +43,7 @@ class ShapeFollowing : public MembraneMotion {
   const vesicle::VectorField* owed_force() const override { return owes_ ? &owed_force_ : nullptr; }
   std::optional<double> position_error() const override { return position_error_; }
 
+  MotionEntries entries() const override { return entries_; }
   MarkerStatistics statistics() const override { return {steps_, 0, steps_}; }
 
   std::span<const double> history() const override;
@@ -59,6 +60,7 @@ class ShapeFollowing : public MembraneMotion {
   // Real and imaginary parts.
   static Eigen::Map<Eigen::VectorXd> as_vector(vesicle::Coefficients& c);
 
+  bool keeps_something() const { return keeps_volume_ || keeps_area_; }
   bool has_tension() const { return sigma0_ > 0.0; }
   int fields() const { return has_tension() ? 4 : 3; }
   double step_ratio(double dt) const { return previous_dt_ > 0.0 ? dt / previous_dt_ : 0.0; }
@@ -70,6 +72,8 @@ class ShapeFollowing : public MembraneMotion {
   void solve_increment(double dt);
   void solve_implicit_terms(double dt);
   vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
+  void keep_rates(const vesicle::Surface& surface, vesicle::VectorField& velocity);
+  void keep_displacement(const vesicle::Surface& surface, vesicle::VectorField& displacement);
   void conserve(const vesicle::Surface& surface);
   void estimate_error(double ratio);
   void finish(double dt, vesicle::Membrane& membrane);
@@ -96,6 +100,7 @@ class ShapeFollowing : public MembraneMotion {
   int smooth_steps_ = 0;  // since a start
   bool knows_state_ = false, knows_strain_ = false;
   long steps_ = 0;
+  MotionEntries entries_;
   std::optional<double> position_error_;
 
   // Work space of a step.

@@ -147,7 +147,7 @@ void Simulation::solve_step(double dt) {
 
 void Simulation::compute_forces(double dt) {
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
-    const PhaseTimer timer(seconds_.membrane);
+    const PhaseTimer timer(phases_.membrane);
     vesicles_[i]->predict(dt);
     check_limits(i);
   }
@@ -156,15 +156,18 @@ void Simulation::compute_forces(double dt) {
 
 void Simulation::spread_forces() {
   {
-    const PhaseTimer timer(seconds_.spread);
+    const PhaseTimer timer(phases_.spread);
     for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
   }
   {
-    const PhaseTimer timer(seconds_.membrane);
+    const PhaseTimer timer(phases_.membrane);
     for (auto& v : vesicles_) v->update();
+  }
+  if (external_forces_->any()) {
+    const PhaseTimer timer(phases_.external_forces);
     external_forces_->compute();
   }
-  const PhaseTimer timer(seconds_.spread);
+  const PhaseTimer timer(phases_.spread);
   for (auto& v : vesicles_) {
     v->transfer.update(v->membrane.positions());
     v->transfer.spread(v->force(), v->membrane.surface().area_weight(), fluid_.force());
@@ -185,7 +188,7 @@ void Simulation::hold_the_fluid() {
 // Of the same markers as the forces.
 void Simulation::update_viscosity() {
   if (!contrast_) return;
-  const PhaseTimer timer(seconds_.indicator);
+  const PhaseTimer timer(phases_.indicator);
   for (std::size_t i = 0; i < vesicles_.size(); ++i) contrast_->add(i, vesicles_[i]->membrane.surface());
   contrast_->update();
 }
@@ -202,8 +205,8 @@ void Simulation::advance_fluid(double dt) {
 
 void Simulation::move_markers(double dt) {
   for (auto& v : vesicles_) {
-    const PhaseTimer timer(seconds_.mesh);
-    v->advance(dt, fluid_.previous_velocity(), fluid_.velocity(), seconds_.interpolate);
+    const PhaseTimer timer(phases_.mesh);
+    v->advance(dt, fluid_.previous_velocity(), fluid_.velocity(), phases_);
   }
 }
 
@@ -214,10 +217,10 @@ void Simulation::redistribute_markers() {
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
     {
-      const PhaseTimer timer(seconds_.membrane);
+      const PhaseTimer timer(phases_.membrane);
       v.update();
     }
-    const PhaseTimer timer(seconds_.mesh);
+    const PhaseTimer timer(phases_.redistribution);
     if (!limits.passed_by(vesicle::mesh_quality(v.membrane.surface()))) continue;
     const vesicle::RedistributionReport report = v.membrane.redistribute(redistributions_.at(scene_.latitudes(i)));
     if (!report.moved) continue;
@@ -241,7 +244,7 @@ void Simulation::check_limits(std::size_t i) const {
 }
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {
-  const PhaseTimer timer(seconds_.diagnostics);
+  const PhaseTimer timer(phases_.diagnostics);
   std::vector<vesicle::Diagnostics> all;
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
     all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.mesh));
@@ -293,14 +296,27 @@ double Simulation::time_step() const {
   return step_control_ && steps() > 0 ? fluid_.clock().time_step : scene_.time.step;
 }
 
-PhaseSeconds Simulation::phase_seconds() const {
-  PhaseSeconds all = seconds_;
-  all.mesh -= all.interpolate;  // interpolation is asked for inside the move
-  all.fluid_convection = fluid_.timings().convection;
-  all.fluid_viscous = fluid_.timings().viscous;
-  all.fluid_momentum = fluid_.timings().momentum;
-  all.fluid_projection = fluid_.timings().projection;
+Phases Simulation::phases() const {
+  Phases all = phases_;
+  all.mesh.seconds -= all.interpolate.seconds + all.thickness_correction.seconds;  // asked for inside the move
+  const fluid::FluidTimings& of_fluid = fluid_.timings();
+  all.fluid_convection = of_fluid.convection;
+  all.fluid_viscous = of_fluid.viscous;
+  all.fluid_momentum = of_fluid.momentum;
+  all.fluid_projection = of_fluid.projection;
   return all;
+}
+
+PartEntries Simulation::part_entries() const {
+  PartEntries sum;
+  for (const auto& v : vesicles_) {
+    const vesicle::MembraneEntries& of_membrane = v->membrane.entries();
+    const MotionEntries of_motion = v->motion->entries();
+    sum.tension += of_membrane.tension;
+    sum.strain += of_membrane.target_areas + of_motion.strain;
+    sum.conservation += of_membrane.conservation + of_motion.conservation;
+  }
+  return sum;
 }
 
 SimulationState Simulation::state() const {

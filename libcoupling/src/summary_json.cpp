@@ -41,18 +41,17 @@ Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions, c
   return entry;
 }
 
-Json phases_of(const PhaseSeconds& s, double output_seconds) {
-  return {{"membrane", s.membrane},
-          {"spread", s.spread},
-          {"indicator", s.indicator},
-          {"fluid_convection", s.fluid_convection},
-          {"fluid_viscous", s.fluid_viscous},
-          {"fluid_momentum", s.fluid_momentum},
-          {"fluid_projection", s.fluid_projection},
-          {"interpolate", s.interpolate},
-          {"mesh", s.mesh},
-          {"diagnostics", s.diagnostics},
-          {"output", output_seconds}};
+// `value` of each account.
+template <class Value>
+Json phases_of(const Phases& phases, const RunRecord& record, Value&& value) {
+  Json all;
+  const auto add = [&](const char* name, const fluid::PhaseAccount& account) { all[name] = value(account); };
+  visit_phases(phases, add);
+  add("output_table", record.output_table);
+  add("output_vesicle", record.output_vesicle);
+  add("output_fluid", record.output_fluid);
+  add("output_checkpoint", record.output_checkpoint);
+  return all;
 }
 
 // A state that has blown up may not be measurable any more.
@@ -90,12 +89,14 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   summary["time"] = simulation.time();
   summary["time_step"] = simulation.time_step();
   summary["rejected_steps"] = simulation.rejected_steps();
-  summary["wall_seconds"] = record.wall_seconds;
+  summary["wall_seconds"] = record.wall.seconds;
   summary["seconds_per_step"] =
-      record.steps_taken > 0 ? Json(record.wall_seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);
+      record.steps_taken > 0 ? Json(record.wall.seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);
   summary["vesicles"] = vesicles_of(simulation);
   summary["max_divergence"] = finite_or_null(simulation.max_divergence());
-  summary["phase_seconds"] = phases_of(simulation.phase_seconds(), record.output_seconds);
+  const Phases phases = simulation.phases();
+  summary["phase_seconds"] = phases_of(phases, record, [](const auto& account) { return account.seconds; });
+  summary["phase_entries"] = phases_of(phases, record, [](const auto& account) { return account.entries; });
   write_text_atomically(directory / "summary.json", summary.dump(2) + "\n");
 }
 

@@ -16,17 +16,17 @@
 namespace vesiflow::fluid {
 namespace {
 
-// Adds the wall time of its life to an account.
+// Enters an account for its lifetime: one entry, and the wall seconds.
 class PhaseTimer {
  public:
-  explicit PhaseTimer(double& seconds) : seconds_(seconds) {}
-  ~PhaseTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  explicit PhaseTimer(PhaseAccount& account) : account_(account) { ++account_.entries; }
+  ~PhaseTimer() { account_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
 
  private:
   using Clock = std::chrono::steady_clock;
-  double& seconds_;
+  PhaseAccount& account_;
   Clock::time_point start_ = Clock::now();
 };
 
@@ -291,7 +291,7 @@ void Stepper::solve_stokes(double dt) {
 
 void Stepper::update_velocity_solver(double a) {
   if (velocity_solver && !variable_viscosity() && velocity_solver->problem().alpha == a) return;
-  const PhaseTimer timer(timings.viscous);
+  const PhaseTimer timer(variable_viscosity() ? timings.viscous : timings.momentum);
   reference_viscosity_ = parameters.viscosity.checked_range().max;
   if (variable_viscosity()) {
     // Looked at anew, as its owner may have moved another field into it.
@@ -308,7 +308,10 @@ void Stepper::update_velocity_solver(double a) {
 
 // The arrays of the previous velocity take the right-hand side, the provisional and at last the new velocity.
 void Stepper::form_right_hand_side(const StepCoefficients& coefficients, double dt) {
-  if (extrapolated_) extrapolate(velocity, previous, coefficients.b2, *extrapolated_);
+  if (extrapolated_) {
+    const PhaseTimer timer(timings.viscous);
+    extrapolate(velocity, previous, coefficients.b2, *extrapolated_);
+  }
   const PhaseTimer timer(timings.convection);
   explicit_terms(coefficients, parameters.reynolds_number, dt, velocity, pressure, force, uniform_force,
                  convection_ ? &*convection_ : nullptr, previous);

@@ -84,6 +84,7 @@ const VectorField& Membrane::compute_force() {
   force_.setZero();
   if (bending_) bending_->add_to(surface_, force_);
   if (tension_force_) {
+    ++entries_.tension;
     evaluate_tension();
     tension_force_->add_to(surface_, tension_, force_);
   }
@@ -108,11 +109,15 @@ void Membrane::evaluate_tension() {
 
 void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorField& filtered) {
   filter_.apply(surface_, velocity, filtered);
-  if (conservation_) conservation_->correct_velocity(surface_, dt, filtered);
+  if (!conservation_) return;
+  ++entries_.conservation;
+  conservation_->correct_velocity(surface_, dt, filtered);
 }
 
 void Membrane::correct_displacement(VectorField& displacement) {
-  if (conservation_) conservation_->correct_displacement(surface_, displacement);
+  if (!conservation_) return;
+  ++entries_.conservation;
+  conservation_->correct_displacement(surface_, displacement);
 }
 
 void Membrane::advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
@@ -120,7 +125,10 @@ void Membrane::advance(const VectorField& new_positions, const VectorField& velo
   check_markers(new_positions, "new_positions", positions_.rows());
   check_finite(new_positions, "a new position");
   if (relaxes_strain() || integral_) strain_ = (surface_.area_weight() / target_areas_).log();
-  if (tension_force_) target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
+  if (tension_force_) {
+    ++entries_.target_areas;
+    target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
+  }
   if (relaxes_strain()) lagged_strain_ += parameters_.strain_relaxation * (strain_ - lagged_strain_);
   if (integral_) integral_->advance(strain_, dt, integral_tension_);
   positions_ = new_positions;

@@ -181,6 +181,69 @@ TEST_F(RunTest, RestartContinuesBitForBitWithArkode) {
   compare_restart(folder_, {"time.markers=arkode", "time.fluid_velocity=interpolated"}, 2);
 }
 
+// Three vesicles of different latitudes, each with its own forces, strain field and corrections that the fluid is owed.
+const Overrides small_three{"domain.cells=[24, 16, 16]", "vesicles.0.latitudes=12", "vesicles.1.latitudes=14",
+                            "vesicles.2.latitudes=10", "mesh.tangential_degrees=8"};
+
+Overrides small_three_with(std::initializer_list<const char*> more) {
+  Overrides all = small_three;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithShapeFollowing) {
+  compare_restart(folder_ / "one", small_three_with({"time.markers=shape_following", "time.step=1/48"}), 1,
+                  three_vesicles);
+  compare_restart(folder_ / "two", small_three_with({"time.markers=shape_following", "time.step=1/48"}), 2,
+                  three_vesicles);
+}
+/// Markers are redistributed in steps 16 and 32; the checkpoint is of step 24, and the motions have started anew before it.
+TEST_F(RunTest, RestartContinuesShapeFollowingBitForBitThroughRedistributions) {
+  const Overrides always = small_three_with({"time.markers=shape_following", "mesh.max_aspect_ratio=1"});
+  compare_restart(folder_, always, 2, three_vesicles);
+  Simulation simulation(three_vesicles(always));
+  restore_checkpoint(at("parts") / "checkpoint.h5", simulation);
+  EXPECT_GT(simulation.redistributions(0), 1);
+}
+TEST_F(RunTest, RestartContinuesShapeFollowingBitForBitWithAViscosityContrast) {
+  for (const char* treatment : {"explicit", "extrapolated", "implicit"})
+    compare_restart(folder_ / treatment,
+                    small_three_with({"time.markers=shape_following", "time.step=1/24", "vesicles.0.viscosity_ratio=5",
+                                      "vesicles.2.viscosity_ratio=0.5",
+                                      (std::string("fluid.viscous_treatment=") + treatment).c_str()}),
+                    2, three_vesicles);
+  compare_restart(folder_ / "none",
+                  small_three_with({"time.markers=shape_following", "time.step=1/16", "vesicles.0.viscosity_ratio=5",
+                                    "fluid.inertia=none"}),
+                  2, three_vesicles);
+}
+TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithStrainRelaxation) {
+  compare_restart(folder_, small_three_with({"time.markers=strain_relaxation", "membrane.integral_rate=2"}), 2,
+                  three_vesicles);
+}
+TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithArkode) {
+  if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
+  compare_restart(folder_, small_three_with({"time.markers=arkode", "time.fluid_velocity=interpolated"}), 2,
+                  three_vesicles);
+}
+
+/// The state between two steps of different lengths, one of them refused, through a file.
+TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithAdaptiveShapeFollowing) {
+  fs::create_directories(folder_);
+  const Scene scene = three_vesicles(small_three_with(
+      {"time.markers=shape_following", "time.adaptive=true", "time.tolerance=3e-5", "time.step=1/24", "time.end=0.4"}));
+  Simulation whole(scene), continued(scene);
+  while (whole.time() < 0.2) whole.step();
+  EXPECT_GT(whole.rejected_steps(), 0);
+  write_checkpoint(at("middle.h5"), whole);
+  while (!whole.finished()) whole.step();
+  write_checkpoint(at("whole.h5"), whole);
+  restore_checkpoint(at("middle.h5"), continued);
+  while (!continued.finished()) continued.step();
+  write_checkpoint(at("continued.h5"), continued);
+  expect_same_state(at("whole.h5"), at("continued.h5"), scene);
+}
+
 /// With refused steps, and with a history of the integrator beside that of the error.
 TEST_F(RunTest, RestartContinuesBitForBitWithAdaptiveSteps) {
   fs::create_directories(folder_);

@@ -47,7 +47,7 @@ TEST(ViscosityContrast, EqualViscositiesHaveNoFieldAndTakeNoTime) {
   Simulation simulation(small_scene());
   advance(simulation, 2);
   EXPECT_EQ(simulation.viscosity(), nullptr);
-  EXPECT_EQ(simulation.phase_seconds().indicator, 0.0);
+  EXPECT_EQ(simulation.phases().indicator.entries, 0);
   const std::string plan = describe_plan(small_scene(), 1);
   EXPECT_NE(plan.find("- indicator                     skipped: the viscosity ratio of every vesicle is 1"),
             std::string::npos)
@@ -79,8 +79,8 @@ TEST(ViscosityContrast, FieldHoldsTheViscosityOfEachVesicle) {
   const double volume = 4.0 / 3.0 * std::numbers::pi;
   EXPECT_NEAR(sum, (4.0 - 0.7) * volume, 0.02 * volume);  // what limiting the field adds or takes
   EXPECT_EQ(mu(-1, 3, 4), mu(0, 3, 4));
-  EXPECT_GT(simulation.phase_seconds().indicator, 0.0);
-  EXPECT_GT(simulation.phase_seconds().fluid_viscous, 0.0);
+  EXPECT_GT(simulation.phases().indicator.seconds, 0.0);
+  EXPECT_GT(simulation.phases().fluid_viscous.seconds, 0.0);
 }
 
 // With a contrast that is hardly there the terms of a field must give what a number gives. (Not so the implicit treatment,

@@ -9,26 +9,13 @@
 
 #include "coupling/flow.h"
 #include "coupling/marker_integrator.h"
+#include "coupling/phases.h"
 #include "coupling/scene.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/diagnostics.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {
-
-/// Wall seconds spent in each phase of the steps since construction.
-struct PhaseSeconds {
-  double membrane = 0.0;          ///< geometry and forces
-  double spread = 0.0;            ///< clearing, weights, spreading
-  double fluid_convection = 0.0;  ///< explicit right-hand side
-  double indicator = 0.0;         ///< field of viscosity, where the vesicles' differs
-  double fluid_viscous = 0.0;     ///< what this field costs the fluid beside its solves
-  double fluid_momentum = 0.0;    ///< three velocity solves
-  double fluid_projection = 0.0;  ///< pressure solve and correction
-  double interpolate = 0.0;
-  double mesh = 0.0;  ///< velocity filter, move, target areas, redistribution
-  double diagnostics = 0.0;
-};
 
 /// A redistribution of the markers of one vesicle at the end of a step.
 struct Redistribution {
@@ -111,7 +98,8 @@ class Simulation {
   const vesicle::VectorField& marker_velocity(std::size_t vesicle) const;
   /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
   const fluid::Field<fluid::Cell>* viscosity() const;
-  PhaseSeconds phase_seconds() const;
+  Phases phases() const;
+  PartEntries part_entries() const;
 
   SimulationState state() const;
   /// \throws std::invalid_argument when the state belongs to another grid or mesh
@@ -142,7 +130,7 @@ class Simulation {
   std::unique_ptr<ExternalForces> external_forces_;
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none
   std::vector<Redistribution> last_redistributions_;
-  PhaseSeconds seconds_;
+  Phases phases_;
   std::unique_ptr<ImplicitStep> implicit_step_;  ///< of time.markers = "implicit"
   std::unique_ptr<StepControl> step_control_;    ///< of adaptive steps
   std::vector<VesicleState> remembered_;         ///< before the step that is tried

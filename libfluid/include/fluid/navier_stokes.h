@@ -12,6 +12,7 @@
 #include "fluid/elliptic_solver.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
+#include "fluid/phase_account.h"
 #include "fluid/stokes.h"
 #include "fluid/viscosity.h"
 
@@ -52,12 +53,12 @@ struct FluidClock {
   std::int64_t steps = 0;
 };
 
-// Wall seconds since construction.
+// What the steps have taken since construction.
 struct FluidTimings {
-  double convection = 0.0;  // the explicit right-hand side, convection included
-  double viscous = 0.0;     // what a field of viscosity costs beside its solves: explicit term, updates of the solver
-  double momentum = 0.0;    // the velocity solve
-  double projection = 0.0;  // divergence, pressure solve, correction, walls
+  PhaseAccount convection;  // the explicit right-hand side, convection included
+  PhaseAccount viscous;     // what a field of viscosity costs beside its solves: explicit term, updates of the solver
+  PhaseAccount momentum;    // the velocity solve
+  PhaseAccount projection;  // divergence, pressure solve, correction, walls
 };
 
 // The solves of the last step.

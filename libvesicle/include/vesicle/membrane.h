@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "vesicle/area.h"
@@ -57,6 +58,11 @@ struct MembraneState {
   double initial_volume = 0;
   ScalarField lagged_strain;     ///< s, (markers); empty if strain_relaxation = 1
   ScalarField integral_tension;  ///< Z, (markers); empty if there is none
+};
+
+/// How often the parts that parameters can switch off were entered, since construction.
+struct MembraneEntries {
+  std::int64_t tension = 0, target_areas = 0, conservation = 0;
 };
 
 /// One vesicle: markers, forces per unit area, and mesh control. A step of a simulation reads
@@ -128,6 +134,8 @@ class Membrane {
   /// The same without bending. The force is minus its derivative, at fixed Z, unless the strain is relaxed.
   double elastic_energy() const;
 
+  const MembraneEntries& entries() const { return entries_; }
+
   MembraneState state() const;
   /// Replaces the state and updates the geometry.
   /// @throws std::invalid_argument if an array has the wrong size or an area or the volume is not positive and finite;
@@ -155,6 +163,7 @@ class Membrane {
   ScalarField strain_, lagged_strain_, integral_tension_;  // empty where not needed
   double initial_area_ = 0;
   double initial_volume_ = 0;
+  MembraneEntries entries_;
 };
 
 }  // namespace vesiflow::vesicle

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+
+namespace vesiflow::fluid {
+
+// What one phase of the steps has taken since construction: wall seconds, and how often it was entered. A phase that is switched
+// off is never entered.
+struct PhaseAccount {
+  double seconds = 0.0;
+  std::int64_t entries = 0;
+};
+
+}  // namespace vesiflow::fluid
