@@ -63,7 +63,7 @@ void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions
     vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
     velocity = fraction * velocity + (1.0 - fraction) * at_start;
   }
-  if (vesicle_.thickness_) vesicle_.thickness_->add_to(vesicle_.membrane, velocity);
+  if (vesicle_.thickness_) vesicle_.thickness_->add_to(vesicle_.membrane, vesicle_.force(), velocity);
 }
 
 void ImmersedVesicle::update() {
@@ -99,7 +99,7 @@ void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) 
   transfer.interpolate(velocity, velocities.fluid);
   if (thickness_) {
     update();
-    thickness_->add_to(membrane, velocities.fluid);
+    thickness_->add_to(membrane, force(), velocities.fluid);
   }
   motion->mesh_velocity(dt, membrane, velocities);
 }

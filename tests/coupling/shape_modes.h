@@ -71,7 +71,7 @@ inline Amplitudes amplitudes_of(const vesicle::Surface& surface) {
 /// steps, for which (a_k - a_{k+1})/(dt a_k) is the rate itself.
 inline Amplitudes measured_rates(const Scene& scene) {
   Simulation simulation(scene);
-  constexpr int settling = 14;
+  const long settling = std::lround(14.0 / 96.0 / scene.time.step);
   for (int i = 0; i < settling; ++i) simulation.step();
   const Amplitudes before = amplitudes_of(simulation.membrane(0).surface());
   simulation.step();
