@@ -62,9 +62,7 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(0.5, 4.0))
       ->capture_default_str();
   app.add_flag("--correction", correction, "coupling.thickness_correction = true");
-  app.add_option("--kernel", kernel, "delta function")
-      ->check(CLI::IsMember(delta_kernel_names))
-      ->capture_default_str();
+  app.add_option("--kernel", kernel, "delta function")->check(CLI::IsMember(delta_kernel_names))->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 
   std::printf("spacing 0: extrapolated from the three rows before\n");
@@ -75,11 +73,7 @@ int main(int argc, char** argv) {
     for (const int cells : sizes) {
       const double h = 2.0 * half / cells;
       const int latitudes = std::max(16, static_cast<int>(std::lround(refinement * M_PI / (0.55 * h) / 4.0)) * 4);
-      Scene scene = test::shape_modes_scene(half, cells, latitudes, ratio);
-      // The modes are symmetric about the z axis: a quarter of the box is enough.
-      scene.domain.lower[0] = scene.domain.lower[1] = 0.0;
-      scene.domain.cells[0] = scene.domain.cells[1] = cells / 2;
-      scene.domain.mirror = {true, true, false};
+      Scene scene = test::quarter_of(test::shape_modes_scene(half, cells, latitudes, ratio));
       scene.coupling.kernel = delta_kernel(kernel);
       scene.coupling.thickness_correction = correction;
       if (correction) scene.time.step = std::min(scene.time.step, largest_tension_number * 4.0 * h / 100.0);

@@ -7,7 +7,8 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr double largest_wavenumber = 4.0 * std::numbers::pi;  // times h: the answer beyond it is below 1e-5 of the whole
+constexpr double largest_wavenumber =
+    4.0 * std::numbers::pi;  // times h: the answer beyond it is below 1e-5 of the whole
 
 // Of phi(r) in one direction, tabulated, for wavenumbers times h.
 class FourierTransform {

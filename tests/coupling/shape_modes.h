@@ -40,6 +40,16 @@ inline Scene shape_modes_scene(double half, int cells, int latitudes, double rat
   return scene;
 }
 
+/// The same, of which the quarter x > 0, y > 0 of the box is computed: the modes are symmetric about the z axis.
+inline Scene quarter_of(Scene scene) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    scene.domain.lower[axis] = 0.0;
+    scene.domain.cells[axis] /= 2;
+    scene.domain.mirror[axis] = true;
+  }
+  return scene;
+}
+
 using Amplitudes = std::array<double, 3>;  ///< of Y_2^0, Y_3^0 and Y_4^0
 
 /// Rate with a concentric spherical wall of radius 3 or 6 over the rate without, at viscosity ratios 1 and 5: independent
