@@ -11,7 +11,7 @@ namespace vesiflow::coupling {
 /// Adds to the velocity of a membrane what the width of the delta function takes from it (coupling.thickness_correction): the
 /// difference between the exact answer of a sphere of the membrane's area to forces and its answer by way of the grid
 /// (SphereResponse). Of forces in e+ and e- of degree n that difference is
-///   diag(r_{n+1}^+, r_{n-1}^-) + g_n t t^T,   g_n = mixed sqrt(n (n+1))^{-1} (2n+1),
+///   diag(r_{n+1}^+, r_{n-1}^-) + g_n t t^T,   g_n = mixed (2n+1)/sqrt(n (n+1)),
 /// where t is the direction of a force along the sphere: g is the kink in the velocity that interpolation averages over, c h F/mu
 /// to leading order (first order in h, thickening() of coupling/delta_kernel.h), and r, of second order, is mostly what
 /// is smoothed out along the sphere, once by spreading and once by interpolation. On a membrane of any shape
