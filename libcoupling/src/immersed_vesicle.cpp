@@ -67,7 +67,7 @@ void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions
   }
   if (!vesicle_.thickness_) return;
   const PhaseTimer timer(vesicle_.phases_->thickness_correction);
-  vesicle_.thickness_->add_to(vesicle_.membrane, velocity);
+  vesicle_.thickness_->add_to(vesicle_.membrane, vesicle_.force(), velocity);
 }
 
 void ImmersedVesicle::update() {
@@ -103,7 +103,7 @@ void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) 
   transfer.interpolate(velocity, velocities.fluid);
   if (thickness_) {
     update();
-    thickness_->add_to(membrane, velocities.fluid);
+    thickness_->add_to(membrane, force(), velocities.fluid);
   }
   motion->mesh_velocity(dt, membrane, velocities);
 }

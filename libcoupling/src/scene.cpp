@@ -114,8 +114,15 @@ void check_physics(const Scene& scene, const std::string& name) {
 
 // A membrane that is thin answers faster: too fast for an explicit tension that is right for a thick one.
 void check_thickness(const Scene& scene, const std::string& name) {
-  constexpr double largest = 3.0;
-  if (!scene.coupling.thickness_correction || scene.follows_shape()) return;
+  constexpr double largest = 3.0, largest_reynolds_number = 0.1;
+  if (!scene.coupling.thickness_correction) return;
+  // It is that of Stokes flow: seen to be stable to Re = 0.1, and to blow up at Re = 1.
+  if (scene.fluid.inertia != fluid::Inertia::none && scene.fluid.reynolds_number > largest_reynolds_number)
+    throw SceneError(
+        fmt::format("{}: coupling.thickness_correction = true: is for slow flow, fluid.reynolds_number <= {:g} or "
+                    "fluid.inertia = \"none\", and this scene has {:g}",
+                    name, largest_reynolds_number, scene.fluid.reynolds_number));
+  if (scene.follows_shape()) return;
   if (scene.tension_number() > largest)
     throw SceneError(fmt::format(
         "{}: coupling.thickness_correction = true: with it the explicit tension is stable below g = time.step "

@@ -8,35 +8,48 @@
 
 namespace vesiflow::coupling {
 
-/// What the width of the delta function across a membrane takes from its velocity (coupling.thickness_correction). Of a plane
-/// sheet with force per area F e^{ikx} on it in Stokes flow of viscosity mu, spread and interpolated across the sheet with a
-/// Gaussian of second moment m h^2, x = k h sqrt(m), e = exp(x^2) erfc(x), the velocity is
-///   1/(4 mu k) [(1 + 2 x^2) e - 2 x/sqrt(pi)] F   for F along the sheet and k,
-///   1/(4 mu k) [(1 - 2 x^2) e + 2 x/sqrt(pi)] F   for F normal to it,
-/// and 1/(4 mu k) F, both, if h = 0. The difference is added: c h F/mu along (a membrane that is thick by this, first order in
-/// h, thickening() of coupling/delta_kernel.h) and m h^2 k F/(4 mu) across, to leading order. m = pi c^2 gives each kernel
-/// its c. A degree n of the tension sigma, of which P F is the surface gradient, and of the normal force is taken as
-/// k = (n + 1/2)/R, R of the sphere of the membrane's area; degrees are faded out by exp(-(k h)^4), as on the scale of the grid the
-/// correction is as wrong as what it corrects.
+/// Adds to the velocity of a membrane what the width of the delta function takes from it (coupling.thickness_correction): the
+/// difference between the exact answer of a sphere of the membrane's area to forces and its answer by way of the grid
+/// (SphereResponse). Of forces in e+ and e- of degree n that difference is
+///   diag(r_{n+1}^+, r_{n-1}^-) + g_n t t^T,   g_n = mixed (2n+1)/sqrt(n (n+1)),
+/// where t is the direction of a force along the sphere: g is the kink in the velocity that interpolation averages over, c h F/mu
+/// to leading order (first order in h, thickening() of coupling/delta_kernel.h), and r, of second order, is mostly what
+/// is smoothed out along the sphere, once by spreading and once by interpolation. On a membrane of any shape
+///   - r multiplies the Cartesian components of the force per area, all but the mean of its normal part, which is a
+///     pressure, by their degree; r_l is the mean of r_l^+ (2l - 1 harmonics) and r_l^- (2l + 3 harmonics);
+///   - g multiplies the degrees of the tension, whose surface gradient is added.
+/// So the added velocity is as smooth as the interpolated one. (Degrees of the normal force times the normal would fit the sphere
+/// exactly, but have components of degrees that the membrane does not resolve: its mesh then creeps.) Degrees are faded out
+/// by exp(-a^4), a = log2 of exact over immersed answer to a normal force: where less than half of the answer arrives, the
+/// correction is as uncertain as what it corrects.
 class ThicknessCorrection {
  public:
   /// \param viscosity mean of the two on the sides of the membrane
   ThicknessCorrection(const vesicle::Membrane& membrane, DeltaKernel kernel, double spacing, double viscosity);
 
-  /// Adds to the interpolated velocity (markers x 3) what the forces of the membrane, as last computed, lack.
-  void add_to(const vesicle::Membrane& membrane, vesicle::VectorField& velocity);
+  /// Adds to the interpolated velocity (markers x 3) what is lacking of the answer to `force`, all that acts on the fluid per
+  /// area (markers x 3), with the membrane's tension as last computed.
+  void add_to(const vesicle::Membrane& membrane, const vesicle::VectorField& force, vesicle::VectorField& velocity);
 
-  /// Missing velocity per force of a degree n, along the membrane (gradients) and normal to it.
+  /// Degrees that are corrected, from 0 on: of the others, less than about a quarter of the answer arrives.
+  int degrees() const { return static_cast<int>(along_.size()); }
+
+  /// r_l and g_n, faded out, over the viscosity.
+  double smoothing(int degree) const { return smoothing_[static_cast<std::size_t>(degree)]; }
   double along(int degree) const { return along_[static_cast<std::size_t>(degree)]; }
-  double normal(int degree) const { return normal_[static_cast<std::size_t>(degree)]; }
 
  private:
-  void scale_degrees(const std::vector<double>& factors);
+  struct Factors {
+    std::vector<double> smoothing, along;  // per degree
+  };
+  static Factors factors(const vesicle::Membrane& membrane, DeltaKernel kernel, double spacing, double viscosity);
+  ThicknessCorrection(const vesicle::Membrane& membrane, Factors factors);
 
+  std::vector<double> smoothing_, along_;
   vesicle::SphericalHarmonics harmonics_;
-  std::vector<double> along_, normal_;  // per degree
-  vesicle::Coefficients coefficients_;
-  vesicle::ScalarField values_;
+  vesicle::Coefficients coefficients_;  // of the force and the tension
+  Eigen::ArrayXXd values_;
+  vesicle::ScalarField normal_force_, potential_;
   vesicle::VectorField gradient_;
 };
 

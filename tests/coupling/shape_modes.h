@@ -40,6 +40,16 @@ inline Scene shape_modes_scene(double half, int cells, int latitudes, double rat
   return scene;
 }
 
+/// The same, of which the quarter x > 0, y > 0 of the box is computed: the modes are symmetric about the z axis.
+inline Scene quarter_of(Scene scene) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    scene.domain.lower[axis] = 0.0;
+    scene.domain.cells[axis] /= 2;
+    scene.domain.mirror[axis] = true;
+  }
+  return scene;
+}
+
 using Amplitudes = std::array<double, 3>;  ///< of Y_2^0, Y_3^0 and Y_4^0
 
 /// Rate with a concentric spherical wall of radius 3 or 6 over the rate without, at viscosity ratios 1 and 5: independent
@@ -71,7 +81,7 @@ inline Amplitudes amplitudes_of(const vesicle::Surface& surface) {
 /// steps, for which (a_k - a_{k+1})/(dt a_k) is the rate itself.
 inline Amplitudes measured_rates(const Scene& scene) {
   Simulation simulation(scene);
-  constexpr int settling = 14;
+  const long settling = std::lround(14.0 / 96.0 / scene.time.step);
   for (int i = 0; i < settling; ++i) simulation.step();
   const Amplitudes before = amplitudes_of(simulation.membrane(0).surface());
   simulation.step();
