@@ -74,6 +74,7 @@ def tumbling():
                     keys=FOLLOW | extra | keys)
 
     yield of("extrapolated", 48, 50)
+    yield of("extrapolated", 24, 10)
     yield of("extrapolated", 96, 10)
     yield of("explicit", 48, 10)
     yield of("explicit", 96, 8)
@@ -85,8 +86,8 @@ def tumbling_stokes():
 
 
 def ratio_5():
-    for treatment in ("extrapolated", "explicit"):
-        for step in (24, 48, 96):
+    for treatment, steps in (("extrapolated", (12, 24, 48, 96)), ("explicit", (24, 48, 96))):
+        for step in steps:
             yield case(f"ratio 5 {treatment} 1/{step}", TUMBLING, step, 2000, 6,
                        keys=FOLLOW | {"fluid.viscosity_ratio": 5, "fluid.viscous_treatment": treatment})
 
