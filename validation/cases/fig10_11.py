@@ -14,8 +14,10 @@ def run_of(context, reynolds, end=20):
     """With inertia the implicit tension is stable for g up to about 17 only: a softer membrane and half the step."""
     keys = {"fluid.reynolds_number": reynolds, "time.end": end}
     if reynolds >= 1:
-        keys |= {"membrane.sigma0": 600, "time.step": "1/96"}
-    return shear.treading(f"Re = {reynolds:g}", context, 0.9, scene=shear.TUMBLING, **keys)
+        keys |= {"membrane.sigma0": 600}
+    if reynolds > 2:
+        keys |= {"time.step": "1/96"}
+    return shear.treading(f"Re = {reynolds:g}", context, 0.9, scene=shear.TUMBLING, **shear.HALF, **keys)
 
 
 def motion(course):
@@ -33,9 +35,9 @@ def compute(context):
     kinds = {re: motion(outputs.course(context.folders[run.name])) for re, run in runs.items()}
     low = max(re for re in NUMBERS if kinds[re] == "tumbling")
     high = min(re for re in NUMBERS if kinds[re] == "tank-treading")
-    for _ in range(3):  # bisection, to an eighth of the interval
+    for _ in range(3 if context.paper else 2):
         middle = 0.5 * (low + high)
-        runs[middle] = run_of(context, middle, end=40)
+        runs[middle] = run_of(context, middle, end=30)
         context.run([runs[middle]])
         kinds[middle] = motion(outputs.course(context.folders[runs[middle].name]))
         low, high = (middle, high) if kinds[middle] == "tumbling" else (low, middle)

@@ -71,18 +71,26 @@ def on_mesh(points, latitudes):
     return np.asarray(points)[: 2 * latitudes**2].reshape(latitudes, 2 * latitudes, -1)
 
 
-def surface_divergence(positions, velocity):
-    """div_Gamma of the velocity as the paper filters it: U cut to 2/3 of the degrees along the normal, to 15 along the surface."""
-    latitudes = positions.shape[0]
+def kept(velocity, degrees):
+    return synthesis(cut(analysis(velocity), degrees), velocity.shape[0])
+
+
+def tangents(positions):
     x = analysis(positions)
-    x_theta, x_phi = synthesis(x, latitudes, "theta"), synthesis(x, latitudes, "phi")
-    normal = np.cross(x_theta, x_phi)
+    return synthesis(x, positions.shape[0], "theta"), synthesis(x, positions.shape[0], "phi")
+
+
+def paper_filter(positions, velocity):
+    """Step 4 of the paper: U cut to 2/3 of the degrees along the normal, to 15 along the surface."""
+    latitudes = positions.shape[0]
+    normal = np.cross(*tangents(positions))
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    u = analysis(velocity)
-    shaping, along = (synthesis(cut(u, d), latitudes) for d in (2 * latitudes // 3, min(15, latitudes)))
-    filtered = along + np.sum((shaping - along) * normal, axis=-1, keepdims=True) * normal
-    w = analysis(filtered)
-    w_theta, w_phi = synthesis(w, latitudes, "theta"), synthesis(w, latitudes, "phi")
+    shaping, along = kept(velocity, 2 * latitudes // 3), kept(velocity, min(15, latitudes))
+    return along + np.sum((shaping - along) * normal, axis=-1, keepdims=True) * normal
+
+
+def surface_divergence(positions, velocity):
+    (x_theta, x_phi), (w_theta, w_phi) = tangents(positions), tangents(velocity)
     dot = lambda a, b: np.sum(a * b, axis=-1)  # noqa: E731
     e, f, g = dot(x_theta, x_theta), dot(x_theta, x_phi), dot(x_phi, x_phi)
     return (g * dot(x_theta, w_theta) - f * (dot(x_theta, w_phi) + dot(x_phi, w_theta)) + e * dot(x_phi, w_phi)) / (e * g - f * f)
