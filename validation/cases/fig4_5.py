@@ -7,20 +7,13 @@ from harness.tables import percent, table
 
 TITLE = "tank-treading: angle, frequency, area errors against time (figures 4, 5)"
 VOLUMES = [0.975, 0.9, 0.8]
-SCHEMES = {"shape following": {}, "corrected": shear.CORRECTED, "paper's scheme": None}
+SCHEMES = {"shape following": {}, "corrected": shear.CORRECTED}
 SNAPSHOTS = [0, 1, 3, 15]
 
 
-def runs_of(context):
-    cells = 128 if context.paper else 64
-    for scheme, keys in SCHEMES.items():
-        for volume in VOLUMES:
-            keys_here = shear.paper_scheme(cells) if keys is None else keys
-            yield (scheme, volume), shear.treading(f"{scheme}, {volume}", context, volume, **keys_here)
-
-
-def compute(context):
-    runs = dict(runs_of(context))
+def compute(context, schemes=None):
+    runs = {(scheme, volume): shear.treading(f"{scheme}, {volume}", context, volume, **keys)
+            for scheme, keys in (schemes or SCHEMES).items() for volume in VOLUMES}
     folders = context.run(list(runs.values()))
     values = {"series": {}, "steady": {}}
     rows = []
@@ -53,22 +46,27 @@ def draw(context, values, path):
             drawing.membrane(axes, shot)
             drawing.picture(axes, 2.2, 2.1 if shot["time"] == 0 else 1.35)
             axes.set_title(f"{volume}, t = {shot['time']:.3g}")
-    panels = bottom.subplots(2, 2, sharex=True)
+    draw_courses(bottom, values)
+    drawing.save(figure, path)
+
+
+def draw_courses(figure, values):
+    panels = figure.subplots(2, 2, sharex=True)
     shown = {"angle_deg": "inclination, degrees", "frequency": "frequency, Eq. (34)", "local_area_error": "largest local area error",
              "area_error": "area error"}
     for axes, (key, label) in zip(panels.flat, shown.items()):
         for volume, colour in zip(VOLUMES, drawing.COLOURS):
-            for scheme, style in zip(SCHEMES, ("-", "--", ":")):
-                series = values["series"][f"{scheme}, {volume}"]
-                axes.plot(series["time"], series[key], style, color=colour, label=f"{volume}, {scheme}" if key == "angle_deg" else None)
+            names = [name for name in values["series"] if name.endswith(f", {volume}")]
+            for name, style in zip(names, ("-", "--")):
+                series = values["series"][name]
+                axes.plot(series["time"], series[key], style, color=colour, label=name if key == "angle_deg" else None)
             level = {"angle_deg": theory.inclination, "frequency": theory.frequency}.get(key)
             if level:
                 axes.axhline(level(volume, 1), color=colour, linewidth=0.7)
         axes.set_ylabel(label)
     panels[0, 0].set_ylim(0, 95)
-    panels[0, 0].legend(ncol=3, fontsize=6, loc="upper right")
+    panels[0, 0].legend(ncol=2, fontsize=6, loc="upper right")
     panels[0, 1].set_ylim(0.25, 0.55)
     panels[1, 0].set(yscale="log", xlabel="t", ylim=(1e-5, 1e-1))
     panels[1, 1].set(xlabel="t")
     panels[0, 1].set_title("thin lines: Keller & Skalak")
-    drawing.save(figure, path)

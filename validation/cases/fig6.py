@@ -34,11 +34,11 @@ def compute(context):
         angle, frequency = theory.inclination(volume, 1), theory.frequency(volume, 1)
         corrected = values["steady"][f"corrected, {volume}"]
         difference = [f"{corrected['angle_deg'] - angle:+.2f}", percent(corrected["frequency"], frequency)] if corrected else ["", ""]
-        rows.append([*cells, angle, frequency, *difference])
+        rows.append([*cells, angle, frequency, *difference, theory.quasi_spherical_inclination(volume, 1)])
     values["tables"] = [table(
         "Angle in degrees and frequency of Eq. (34) at t = 15",
         ["reduced volume", "angle", "frequency", "angle, corrected", "frequency, corrected", "Keller & Skalak: angle", "frequency",
-         "corrected less theory: degrees", "frequency"], rows)]
+         "corrected less theory: degrees", "frequency", "angle of the quasi-spherical theory"], rows)]
     return values
 
 
@@ -48,10 +48,13 @@ def draw(context, values, path):
     for axes, key, of_theory, label in zip(panels, ("angle_deg", "frequency"), (theory.inclination, theory.frequency),
                                            ("inclination, degrees", "frequency, Eq. (34)")):
         axes.plot(fine, [of_theory(v, 1) for v in fine], color="0.5", label="Keller & Skalak")
+        if key == "angle_deg":
+            axes.plot(fine, [theory.quasi_spherical_inclination(v, 1) for v in fine], color="0.5", linestyle="--", label="quasi-spherical theory")
         for scheme, mark, colour in zip(SCHEMES, "os", drawing.COLOURS):
             known = [v for v in VOLUMES if values["steady"][f"{scheme}, {v}"]]
             axes.plot(known, [values["steady"][f"{scheme}, {v}"][key] for v in known], mark, color=colour, markersize=5,
                       label=scheme if scheme != "corrected" else "thickness corrected")
         axes.set(xlabel="reduced volume", ylabel=label)
+    panels[0].set_ylim(10, 46)
     panels[0].legend()
     drawing.save(figure, path)

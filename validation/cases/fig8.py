@@ -30,9 +30,9 @@ def compute(context):
         expected = theory.inclination(volume, ratio)
         rows.append([ratio, volume, theory.excess_area(volume), state["angle_deg"], f"{state['drift_deg']:+.2f}",
                      "tumbles" if math.isnan(expected) else expected,
-                     "" if math.isnan(expected) else f"{state['angle_deg'] - expected:+.2f}", state["frequency"]])
+                     "" if math.isnan(expected) else f"{state['angle_deg'] - expected:+.2f}", theory.quasi_spherical_inclination(volume, ratio), state["frequency"]])
     values["tables"] = [table("At t = 12", ["viscosity ratio", "reduced volume", "excess area", "angle, degrees", "change in the last unit of time",
-                                            "Keller & Skalak", "difference", "frequency"], rows)]
+                                            "Keller & Skalak", "difference", "quasi-spherical theory", "frequency"], rows)]
     return values
 
 
@@ -42,6 +42,8 @@ def draw(context, values, path):
     for ratio, colour in zip(RATIOS, drawing.COLOURS):
         axes.plot([theory.excess_area(v) for v in fine], [theory.inclination(v, ratio) for v in fine], color=colour, linewidth=1,
                   label=f"Keller & Skalak, ratio {ratio}")
+        axes.plot([theory.excess_area(v) for v in fine], [theory.quasi_spherical_inclination(v, ratio) for v in fine], color=colour, linewidth=1,
+                  linestyle="--", label="quasi-spherical theory" if ratio == RATIOS[0] else None)
         points = [values["steady"][f"ratio {ratio}, {v}"] for v in VOLUMES]
         for moving, fill in ((False, colour), (True, "white")):
             some = [p for p in points if p["moving"] == moving]

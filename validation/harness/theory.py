@@ -1,5 +1,7 @@
-"""Keller and Skalak's fluid ellipsoid in shear flow (J. Fluid Mech. 120, 27, 1982), for prolates with the shear rate 1.
+"""Theories of a vesicle in shear flow of rate 1.
 
+Keller and Skalak's fluid ellipsoid (J. Fluid Mech. 120, 27, 1982), for prolates. Its shape is given and does not deform, and its membrane velocity keeps
+areas only on the whole: a model at any reduced volume below 1.
 The membrane moves as v = nu (-(a/b) z', (b/a) x') in the frame of the ellipsoid with semi-axes a (long) and b, which turns as
 d theta/dt = -1/2 + C cos 2 theta. For C > 1/2 it tank-treads at cos 2 theta = 1/(2 C), otherwise it tumbles.
 """
@@ -74,6 +76,13 @@ def frequency(reduced_volume, ratio):
     z = b * np.sqrt(1 - mu[:, None] ** 2) * np.cos(phi)
     area = weight[:, None] * b * np.sqrt(a * a * (1 - mu[:, None] ** 2) + b * b * mu[:, None] ** 2) * np.ones_like(phi)
     return float(rate * np.sum(area * (b / a * x * x + a / b * z * z) / (x * x + z * z)) / np.sum(area))
+
+
+def quasi_spherical_inclination(reduced_volume, ratio):
+    """Misbah (Phys. Rev. Lett. 96, 028104, 2006): an inextensible, deformable membrane to leading order in the excess area, so exact for a
+    reduced volume near 1. Degrees; nan where it has no steady angle."""
+    cosine = math.sqrt(excess_area(reduced_volume)) * (23 * ratio + 32) / (120 * math.sqrt(2 * math.pi / 15))
+    return 0.5 * math.degrees(math.acos(cosine)) if cosine <= 1 else math.nan
 
 
 def critical_ratio(reduced_volume):
