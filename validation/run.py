@@ -8,7 +8,8 @@ usage: scripts/python.sh validation/run.py CASE... [--coarse | --paper] [--jobs 
 
 Each case runs its scenes one after the other with one thread each (--jobs N: N at a time), and writes validation/results/CASE.LEVEL.json and
 docs/figures/CASE.png. --coarse (default) takes minutes, --paper takes the paper's resolution. What has been run is not run again, and a run that was
-interrupted goes on from its checkpoint: results are in out/validation. --docs puts the stored tables into docs/validation.md.
+interrupted goes on from its checkpoint: results are in out/validation. --docs puts the stored tables, the finer where
+there are both, into docs/validation.md.
 """
 
 import argparse
@@ -102,11 +103,11 @@ def compact(result):
 def write_docs():
     blocks = {}
     total = {}
-    for file in sorted(RESULTS.glob("*.json")):
+    for file in sorted(RESULTS.glob("*.json")):  # coarse before paper, so that the finer one stays
         stored = json.loads(file.read_text())
         case, level = file.name.split(".")[:2]
-        blocks[f"{case}.{level}"] = "\n\n".join(["", *[tables.markdown(t) for t in stored["values"]["tables"]], ""])
-        blocks[f"{case}.{level}"] += f"\n`{stored['command']}`, {len(stored['runs'])} runs, {seconds(stored['cpu_seconds'])} of one core.\n"
+        blocks[case] = "\n\n".join(["", *[tables.markdown(t) for t in stored["values"]["tables"]], ""])
+        blocks[case] += f"\n`{stored['command']}`, {len(stored['runs'])} runs, {seconds(stored['cpu_seconds'])} of one core.\n"
         total.setdefault(case, {})[level] = stored["cpu_seconds"]
     rows = [[case, cases.load(case).TITLE, *(seconds(total[case].get(level)) for level in ("coarse", "paper"))] for case in cases.NAMES if case in total]
     rows.append(["all", "", *(seconds(sum(t.get(level, 0) for t in total.values())) for level in ("coarse", "paper"))])
