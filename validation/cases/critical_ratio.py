@@ -10,7 +10,7 @@ from harness.tables import table
 
 TITLE = "critical viscosity ratio for tumbling"
 VOLUMES = [0.95, 0.9, 0.8]
-END = 40
+END = 30
 
 
 def run_of(context, volume, ratio):

@@ -9,7 +9,7 @@ VOLUMES, SNAPSHOTS = [0.7, 0.65], [0, 1, 3, 20]
 
 def run_of(context, volume, step):
     latitudes = 80 if context.paper else 56
-    return shear.treading(f"{volume}, dt = {step}", context, volume, **{"mesh.latitudes": latitudes, "time.end": 20, "time.step": step})
+    return shear.treading(f"{volume}, dt = {step}", context, volume, **shear.HALF, **{"mesh.latitudes": latitudes, "time.end": 20, "time.step": step})
 
 
 def compute(context):

@@ -27,8 +27,9 @@ def form_run(context, shape, form, laplacian):
 
 
 def rest_run(shape, n):
-    keys = {"method.preset": "standard", "time.markers": "shape_following", "membrane.volume": "projection", "membrane.sigma0": 9000,
-            "time.step": "1/24", "time.end": 60, "domain.cells": n, "mesh.latitudes": n // 2,
+    octant = {"domain.mirror": [True, True, True], "domain.lower": [0, 0, 0], "domain.cells": n // 2}  # the same to round-off
+    keys = octant | {"method.preset": "standard", "time.markers": "shape_following", "membrane.volume": "projection", "membrane.sigma0": 9000,
+            "time.step": "1/24", "time.end": 40, "mesh.latitudes": n // 2,
             "output.diagnostics_every": 0.25, "output.vesicle_every": 5}
     return Run(f"{shape} to rest, N = {n}", f"scenes/paper/fig3_{shape}.toml", keys)
 
@@ -44,7 +45,7 @@ def first_noise(course):
 
 def compute(context):
     forms = {(s, f, lap): form_run(context, s, f, lap) for s in SHAPES for f in FORMS for lap in LAPLACIANS}
-    sizes = [32, 64, 128] if context.paper else [32, 64]
+    sizes = [32, 64, 96, 128] if context.paper else [32, 64, 96]
     rests = {(s, n): rest_run(s, n) for s in SHAPES for n in sizes}
     folders = context.run([*forms.values(), *rests.values()])
     values, rows = {"series": {}, "forms": {}, "rest": {}}, []

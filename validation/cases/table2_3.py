@@ -28,7 +28,8 @@ SCHEMES = ["paper's preset", "shape following"]
 
 
 def run_of(scheme, n):
-    keys = {"domain.cells": n, "mesh.latitudes": n // 2, "output.vesicle_every": 0.5, "output.fluid_every": 0, "output.checkpoint_every": 0.1}
+    octant = {"domain.mirror": [True, True, True], "domain.lower": [0, 0, 0], "domain.cells": n // 2}  # the same to round-off
+    keys = octant | {"mesh.latitudes": n // 2, "output.vesicle_every": 0.5, "output.fluid_every": 0, "output.checkpoint_every": 0.1}
     if scheme == "shape following":
         keys |= {"method.preset": "standard", "membrane.volume": "projection", "time.markers": "shape_following", "membrane.sigma0": 2400}
     else:

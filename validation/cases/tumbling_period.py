@@ -12,7 +12,7 @@ VOLUMES = [0.975, 0.95, 0.9, 0.8]
 
 def run_of(context, volume):
     grid = {"domain.cells": [120, 60, 120], "mesh.latitudes": 64} if context.paper else {"domain.cells": [60, 30, 60]}
-    keys = {"vesicles.0.reduced_volume": volume, "fluid.viscosity_ratio": 20, "time.end": 45, "time.step": "1/48", "membrane.sigma0": 2000,
+    keys = {"vesicles.0.reduced_volume": volume, "fluid.viscosity_ratio": 20, "time.end": 35, "time.step": "1/48", "membrane.sigma0": 2000,
             "vesicles.0.rotation_deg": 0}
     return Run(f"{volume}", "scenes/paper/half_box.toml", keys | grid)
 
