@@ -17,7 +17,9 @@ import json
 import os
 import pathlib
 import platform
+import signal
 import subprocess
+import sys
 import time
 
 import cases
@@ -132,6 +134,7 @@ def main():
     parser.add_argument("--list", action="store_true", help="list the cases")
     parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/validation.md")
     options = parser.parse_args()
+    signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
     if options.list:
         for name in cases.NAMES:
             print(f"{name:22s} {cases.load(name).TITLE}")

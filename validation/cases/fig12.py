@@ -70,5 +70,5 @@ def draw(context, values, path):
         drawing.outline(row[-1], last, normal=1, colors=drawing.VERMILLION, linewidths=1.2)  # x-z
         drawing.outline(row[-1], last, normal=2, colors=drawing.BLUE, linewidths=1.2)  # x-y
         drawing.picture(row[-1], 1.6)
-        row[-1].set_title("sections: x-z red, x-y blue; flow to the right", fontsize=7)
+        row[-1].set_title("x-z red, x-y blue", fontsize=7)
     drawing.save(figure, path)

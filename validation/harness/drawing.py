@@ -26,7 +26,7 @@ def save(figure, path):
         from PIL import Image
     except ImportError:
         return
-    Image.open(path).convert("RGB").quantize(64).save(path, optimize=True)
+    Image.open(path).convert("RGB").quantize(160).save(path, optimize=True)
 
 
 def _unit(vectors):

@@ -58,6 +58,15 @@ def finished(run):
     return done and not (run.keep_checkpoint and not (run.folder() / "checkpoint.h5").exists())
 
 
+_under_way = set()
+
+
+def stop():
+    """Ends the runs under way: each writes a checkpoint."""
+    for process in list(_under_way):
+        process.terminate()
+
+
 def execute(run, program, report):
     """Runs to the end; True if it is there. The seconds of all attempts are added up in run.json."""
     folder = run.folder()
@@ -76,18 +85,22 @@ def execute(run, program, report):
     start = time.monotonic()
     with open(folder / "log.txt", "a") as log:
         process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=log, stderr=log)
+        _under_way.add(process)
         try:
             cpu = _wait(process, lambda: report(run, outputs.last_time(folder), time.monotonic() - start))
         finally:
             if process.returncode is None:
                 process.terminate()  # writes a checkpoint
                 cpu = _wait(process, lambda: None)
+            _under_way.discard(process)
     record = _record(folder)
     record["cpu_seconds"] = record.get("cpu_seconds", 0.0) + cpu
     record["wall_seconds"] = record.get("wall_seconds", 0.0) + time.monotonic() - start
     record["attempts"] = record.get("attempts", 0) + 1
     (folder / "run.json").write_text(json.dumps(record))
-    if process.returncode in (2, 4) or process.returncode < 0:
+    if process.returncode == 130:
+        raise KeyboardInterrupt
+    if process.returncode not in (0, 3):
         raise SystemExit(f"{run.name}: exit code {process.returncode}, see {folder / 'log.txt'}\n" + (folder / "log.txt").read_text()[-600:])
     if finished(run) and not run.keep_checkpoint:
         checkpoint.unlink(missing_ok=True)
