@@ -20,6 +20,7 @@ class Theory(unittest.TestCase):
             self.assertAlmostEqual(theory.inclination(volume, 1), angle, places=9)
             self.assertAlmostEqual(theory.frequency(volume, 1), frequency, places=9)
             self.assertAlmostEqual(theory.critical_ratio(volume), critical, places=5)
+        self.assertAlmostEqual(theory.phase_frequency(0.9, 1), 0.40456110804821255, places=9)
 
     def test_quasi_spherical_theory_as_computed_independently(self):
         self.assertAlmostEqual(theory.quasi_spherical_inclination(0.975, 1), 35.44068505433924, places=9)

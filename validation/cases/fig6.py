@@ -34,10 +34,10 @@ def compute(context):
         angle, frequency = theory.inclination(volume, 1), theory.frequency(volume, 1)
         corrected = values["steady"][f"corrected, {volume}"]
         difference = [f"{corrected['angle_deg'] - angle:+.2f}", percent(corrected["frequency"], frequency)] if corrected else ["", ""]
-        rows.append([*cells, angle, frequency, *difference, theory.quasi_spherical_inclination(volume, 1)])
+        rows.append([*cells, angle, frequency, theory.phase_frequency(volume, 1), *difference, theory.quasi_spherical_inclination(volume, 1)])
     values["tables"] = [table(
         "Angle in degrees and frequency of Eq. (34) at t = 15",
-        ["reduced volume", "angle", "frequency", "angle, corrected", "frequency, corrected", "Keller & Skalak: angle", "frequency",
+        ["reduced volume", "angle", "frequency", "angle, corrected", "frequency, corrected", "Keller & Skalak: angle", "Eq. (34)", "their frequency",
          "corrected less theory: degrees", "frequency", "angle of the quasi-spherical theory"], rows)]
     return values
 
@@ -48,6 +48,9 @@ def draw(context, values, path):
     for axes, key, of_theory, label in zip(panels, ("angle_deg", "frequency"), (theory.inclination, theory.frequency),
                                            ("inclination, degrees", "frequency, Eq. (34)")):
         axes.plot(fine, [of_theory(v, 1) for v in fine], color="0.5", label="Keller & Skalak")
+        if key == "frequency":
+            axes.plot(fine, [theory.phase_frequency(v, 1) for v in fine], color="0.5", linestyle=":", label="their own frequency")
+            axes.legend()
         if key == "angle_deg":
             axes.plot(fine, [theory.quasi_spherical_inclination(v, 1) for v in fine], color="0.5", linestyle="--", label="quasi-spherical theory")
         for scheme, mark, colour in zip(SCHEMES, "os", drawing.COLOURS):

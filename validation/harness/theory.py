@@ -62,14 +62,18 @@ def half_period(reduced_volume, ratio):
     return math.pi / math.sqrt(0.25 - c * c) if abs(c) < 0.5 else math.nan
 
 
+def phase_frequency(reduced_volume, ratio):
+    """nu of the steady ellipsoid: Keller and Skalak's own frequency, that of the phase with which a point goes round."""
+    a, b = prolate_axes(reduced_volume)
+    c = turning(reduced_volume, ratio)
+    f1, f2, f3 = _shape_functions(a, b)
+    return abs(f3 / (f2 - ratio * f1)) * 0.5 / c if c >= 0.5 else math.nan  # times cos 2 theta
+
+
 def frequency(reduced_volume, ratio):
     """Eq. (34) of the paper for the steady ellipsoid: the area mean of |r x v|/|r|^2 in the plane of the shear."""
     a, b = prolate_axes(reduced_volume)
-    c = turning(reduced_volume, ratio)
-    if c < 0.5:
-        return math.nan
-    f1, f2, f3 = _shape_functions(a, b)
-    rate = abs(f3 / (f2 - ratio * f1)) * 0.5 / c  # times cos 2 theta
+    rate = phase_frequency(reduced_volume, ratio)
     mu, weight = np.polynomial.legendre.leggauss(200)  # cosine from the long axis
     phi = (np.arange(400) + 0.5) * math.pi / 200
     x = a * mu[:, None] * np.ones_like(phi)
