@@ -89,19 +89,21 @@ def compute(context):
 
 
 def draw(context, values, path):
-    figure, panels = drawing.figure(2, 2, figsize=(9, 6.4))
+    figure, panels = drawing.figure(2, 2, figsize=(9, 6))
     hs = values["spacings"]
     for row, (name, key) in zip(panels, KEYS.items()):
         for volume, colour in zip(VOLUMES, drawing.COLOURS):
             result = values["extrapolated"][f"{volume}, {name}"]
+            limit = result["limit_h"]["corrected"]
+            off = lambda found, reference: 100 * (np.array(found) / reference - 1)  # noqa: E731
             for scheme, style in zip(SCHEMES, ("s--", "o-")):
                 found = [values["steady"][f"{volume}, {scheme}, box 12, h {h}"][key] for h in hs]
-                row[0].plot(hs, found, style, color=colour, markersize=4, label=f"{volume}, {scheme}")
-            row[0].errorbar([0], [result["limit_h"]["corrected"]], [result["grid_error"]], fmt="D", color=colour, markersize=4, capsize=3)
+                row[0].plot([*hs, 0], off([*found, result["limit_h"][scheme]], limit), style, color=colour, markersize=4, label=f"{volume}, {scheme}")
+            row[0].errorbar([0], [0], [100 * result["grid_error"] / limit], color=colour, capsize=3)
             found = [values["steady"][f"{volume}, corrected, box {w}, h 0.2"][key] for w in WIDTHS]
-            row[1].plot([w**-3.0 for w in WIDTHS], found, "o-", color=colour, markersize=4, label=f"{volume}")
-        row[0].set(xlabel="h (box 12 wide)", ylabel="inclination, degrees" if name == "angle" else "frequency")
-        row[1].set(xlabel="1/B^3 (h = 0.2, corrected)")
-        row[1].set_xscale("log")
-    panels[0, 0].legend(fontsize=6, ncol=3)
+            row[1].semilogx(WIDTHS, off(found, found[-1] + result["box_term"] * (12 / WIDTHS[-1]) ** 3), "o-", color=colour, markersize=4, label=f"{volume}")
+        row[0].set(xlabel="h (box 12 wide)", ylabel=f"{name}: % above the limit")
+        row[1].set(xlabel="width of the box (h = 0.2, corrected)", xticks=WIDTHS, xticklabels=WIDTHS)
+        row[1].minorticks_off()
+    panels[0, 0].legend(fontsize=7)
     drawing.save(figure, path)
