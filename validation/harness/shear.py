@@ -21,7 +21,7 @@ def paper_scheme(cells):
 
 def treading(name, context, volume, scene=TREADING, **keys):
     """A run at the level's resolution."""
-    if keys.get("domain.mirror"):
+    if keys.get("domain.mirror") and "domain.cells" not in keys:
         n = 128 if context.paper else 64
         keys["domain.cells"] = [n, n // 2, n]
     return Run(name, scene, {"vesicles.0.reduced_volume": volume} | ({} if context.paper else COARSE) | keys)
