@@ -17,6 +17,7 @@ import json
 import os
 import pathlib
 import platform
+import resource
 import signal
 import subprocess
 import sys
@@ -45,7 +46,7 @@ class Context:
 
     def __init__(self, level, build, jobs):
         self.level, self.build, self.jobs = level, pathlib.Path(build), jobs
-        self.used, self.folders = [], {}
+        self.used, self.folders, self.app_seconds = [], {}, 0.0
 
     @property
     def paper(self):
@@ -53,12 +54,17 @@ class Context:
 
     def cpu_seconds(self):
         """Of its runs, whichever case they were first made for."""
-        return round(sum(runs.provenance(run)["cpu_seconds"] for run in {r.folder(): r for r in self.used}.values()), 1)
+        of_runs = sum(runs.provenance(run)["cpu_seconds"] for run in {r.folder(): r for r in self.used}.values())
+        return round(of_runs + self.app_seconds, 1)
 
     def app(self, name, *arguments):
         """Standard output of another app."""
         command = [str(self.build / name), *arguments]
-        return subprocess.run(command, cwd=runs.ROOT, check=True, capture_output=True, text=True).stdout
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        output = subprocess.run(command, cwd=runs.ROOT, check=True, capture_output=True, text=True).stdout
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.app_seconds += after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        return output
 
     def run(self, what):
         """Runs what is missing of a list of runs; folders by name."""

@@ -49,7 +49,7 @@ def compute(context):
                 low, high = (middle, high) if kind(middle) in low_kinds else (low, middle)
             brackets[name] = [low, high]
         values["critical"][str(volume)] = brackets | {"keller_skalak": expected}
-        rows.append([volume, *(f"{low:.2f} to {high:.2f}" for low, high in brackets.values()), expected])
+        rows.append([volume, *(f"{low:.2f} to {high:.2f}" if high in kinds else f"above {low:.2f}" for low, high in brackets.values()), expected])
     values["tables"] = [table(f"Runs to t = {END}", ["reduced volume", "tank-treading ends at ratio", "tumbling begins at", "Keller & Skalak: both"], rows)]
     return values
 

@@ -20,12 +20,12 @@ def run_of(context, reynolds, end=20):
 
 
 def motion(course):
-    """tumbling: has turned through; tank-treading: the angle stays and has settled."""
+    """tumbling: has turned through; tank-treading: the angle is above the flow and does not fall any more."""
     angle = outputs.unwrapped(course["inclination_angle_deg"])
     if angle.min() < -80:
         return "tumbling"
     state = shear.steady(course)
-    return "tank-treading" if state["angle_deg"] > 0 and abs(state["drift_deg"]) < 1 else "undecided"
+    return "tank-treading" if state["angle_deg"] > 0 and state["drift_deg"] > -0.05 else "undecided"
 
 
 def compute(context):
@@ -40,6 +40,7 @@ def compute(context):
         context.run([runs[middle]])
         kinds[middle] = motion(outputs.course(context.folders[runs[middle].name]))
         low, high = (middle, high) if kinds[middle] == "tumbling" else (low, middle)
+    high = min(re for re in runs if kinds[re] == "tank-treading")
     values, rows = {"series": {}, "motion": {}, "transition_between": [low, high]}, []
     for re in sorted(runs):
         course, summary = outputs.course(context.folders[runs[re].name]), outputs.summary(context.folders[runs[re].name])
@@ -48,11 +49,11 @@ def compute(context):
         values["motion"][f"{re:g}"] = state | {"motion": kinds[re], "crossings": crossings, "status": summary["status"]}
         rows.append([f"{re:g}", summary["status"], summary["time"], kinds[re], crossings[0] if crossings else "",
                      crossings[1] - crossings[0] if len(crossings) > 1 else "",
-                     state["angle_deg"] if kinds[re] == "tank-treading" else "", float(course["max_local_area_error"].max()),
+                     "" if kinds[re] == "tumbling" else f"{state['angle_deg']:.2f} ({state['drift_deg']:+.2f})", float(course["max_local_area_error"].max()),
                      "tumbling" if re < 1 else "tumbling, later" if re == 1 else "tank-treading" if re in (5, 9) else ""])
     values["tables"] = [
         table(f"The motion changes between Re = {low:g} and {high:g}",
-              ["Re", "ended", "t", "motion", "first along the flow at t", "half a turn takes", "steady angle, degrees", "largest local area error",
+              ["Re", "ended", "t", "motion", "first along the flow at t", "half a turn takes", "angle at the end, degrees (change in the last unit of time)", "largest local area error",
                "the paper"], rows)]
     return values
 

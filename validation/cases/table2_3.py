@@ -34,7 +34,7 @@ def run_of(scheme, n):
         keys |= {"method.preset": "standard", "membrane.volume": "projection", "time.markers": "shape_following", "membrane.sigma0": 2400}
     else:
         keys |= {"membrane.sigma0": 9.375 * n}
-    keys["time.step"] = f"1/{6 * n}"
+    keys["time.step"] = f"1/{12 * n}" if n == 256 and scheme != "shape following" else f"1/{6 * n}"  # g = 16.7 is refused there
     return Run(f"{scheme}, N = {n}", SCENE, keys, keep_checkpoint=True)
 
 

@@ -1,7 +1,7 @@
 """Runs of scenes: done once, continued from their checkpoints after a kill, shared by the cases that need the same.
 
 A run is a scene and the keys that differ from it. Its folder under out/validation is named after both, so that a changed scene is
-run anew and an unchanged one never twice.
+run anew (comments do not count) and an unchanged one never twice.
 """
 
 import dataclasses
@@ -34,7 +34,8 @@ class Run:
         return [f"{key}={_text(value)}" for key, value in sorted(self.keys.items())]
 
     def folder(self):
-        identity = (ROOT / self.scene).read_text() + "\n".join(self.settings())
+        lines = (line.split("#")[0].strip() for line in (ROOT / self.scene).read_text().splitlines())
+        identity = "\n".join([*filter(None, lines), *self.settings()])
         digest = hashlib.sha1(identity.encode()).hexdigest()[:10]
         return STORE / f"{pathlib.Path(self.scene).stem}-{digest}"
 
