@@ -49,12 +49,13 @@ def compute(context):
         values["motion"][f"{re:g}"] = state | {"motion": kinds[re], "crossings": crossings, "status": summary["status"]}
         rows.append([f"{re:g}", summary["status"], summary["time"], kinds[re], crossings[0] if crossings else "",
                      crossings[1] - crossings[0] if len(crossings) > 1 else "",
-                     "" if kinds[re] == "tumbling" else f"{state['angle_deg']:.2f} ({state['drift_deg']:+.2f})", float(course["max_local_area_error"].max()),
+                     "" if kinds[re] == "tumbling" else f"{state['angle_deg']:.2f} ({state['drift_deg']:+.2f})",
+                     float(course["max_local_area_error"].max()),
                      "tumbling" if re < 1 else "tumbling, later" if re == 1 else "tank-treading" if re in (5, 9) else ""])
     values["tables"] = [
         table(f"The motion changes between Re = {low:g} and {high:g}",
-              ["Re", "ended", "t", "motion", "first along the flow at t", "half a turn takes", "angle at the end, degrees (change in the last unit of time)", "largest local area error",
-               "the paper"], rows)]
+              ["Re", "ended", "t", "motion", "first along the flow at t", "half a turn takes", "angle at the end, degrees (change in the last unit of time)",
+               "largest local area error", "the paper"], rows)]
     return values
 
 
@@ -67,7 +68,8 @@ def draw(context, values, path):
             drawing.picture(axes, 2.2, 1.8)
             axes.set_title(f"Re = {re}, t = {shot['time']:.3g}")
     axes = bottom.subplots()
-    for (re, series), colour in zip(values["series"].items(), drawing.plt.cm.viridis([i / len(values["series"]) for i in range(len(values["series"]))])):
+    shades = drawing.plt.cm.viridis([i / len(values["series"]) for i in range(len(values["series"]))])
+    for (re, series), colour in zip(values["series"].items(), shades):
         axes.plot(series["time"], drawing.gaps([math.nan if a is None else a for a in series["angle_deg"]]), color=colour, label=f"Re = {re}")
     axes.set(xlabel="t", ylabel="inclination, degrees", xlim=(0, 20))
     axes.legend(ncol=2, fontsize=7)

@@ -30,9 +30,10 @@ def form_run(context, shape, form, laplacian):
 
 def rest_run(shape, n):
     octant = {"domain.mirror": [True, True, True], "domain.lower": [0, 0, 0], "domain.cells": n // 2}  # the same to round-off
-    keys = octant | {"fluid.reynolds_number": 1e-3, "method.preset": "standard", "time.markers": "shape_following", "membrane.volume": "projection", "membrane.sigma0": 9000,
-            "time.step": f"1/{max(24, n // 2)}", "time.end": 40, "mesh.latitudes": n // 2,
-            "output.diagnostics_every": 0.25, "output.vesicle_every": 5}
+    keys = octant | {"fluid.reynolds_number": 1e-3, "method.preset": "standard", "time.markers": "shape_following",
+                     "membrane.volume": "projection", "membrane.sigma0": 9000,
+                     "time.step": f"1/{max(24, n // 2)}", "time.end": 40, "mesh.latitudes": n // 2,
+                     "output.diagnostics_every": 0.25, "output.vesicle_every": 5}
     return Run(f"{shape} to rest, N = {n}", f"scenes/paper/fig3_{shape}.toml", keys)
 
 

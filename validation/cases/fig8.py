@@ -45,8 +45,10 @@ def compute(context):
         limit = 3 * state["angle_deg"] - 2 * coarser["angle_deg"]
         corrected = shear.steady(outputs.course(folders[thin[ratio].name]))["angle_deg"]
         values["refined"][run.name] = state | {"limit_deg": limit, "corrected_deg": corrected}
-        refined.append([ratio, coarser["angle_deg"], corrected, state["angle_deg"], limit, theory.inclination(REFINED, ratio) if ratio < theory.critical_ratio(REFINED) else "tumbles"])
-    grid = table(f"The grid's part, reduced volume {REFINED}: angle, linear in h", ["viscosity ratio", "on this grid", "corrected", "h smaller by 1.5", "h to 0", "Keller & Skalak"], refined)
+        expected = theory.inclination(REFINED, ratio)
+        refined.append([ratio, coarser["angle_deg"], corrected, state["angle_deg"], limit, "tumbles" if math.isnan(expected) else expected])
+    grid = table(f"The grid's part, reduced volume {REFINED}: angle, linear in h",
+                 ["viscosity ratio", "on this grid", "corrected", "h smaller by 1.5", "h to 0", "Keller & Skalak"], refined)
     values["tables"] = [table("At t = 12", ["viscosity ratio", "reduced volume", "excess area", "angle, degrees", "change in the last unit of time",
                                             "Keller & Skalak", "difference", "quasi-spherical theory", "frequency"], rows), grid]
     return values
