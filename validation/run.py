@@ -114,8 +114,8 @@ def write_docs():
     for file in sorted(RESULTS.glob("*.json")):  # coarse before paper, so that the finer one stays
         stored = json.loads(file.read_text())
         case, level = file.name.split(".")[:2]
-        blocks[case] = "\n\n".join(["", *[tables.markdown(t) for t in stored["values"]["tables"]], ""])
-        blocks[case] += f"\n`{stored['command']}`, {len(stored['runs'])} runs, {seconds(stored['cpu_seconds'])} of one core.\n"
+        blocks[case] = "\n" + "\n\n".join(tables.markdown(t) for t in stored["values"]["tables"])
+        blocks[case] += f"\n\n`{stored['command']}`, {len(stored['runs'])} runs, {seconds(stored['cpu_seconds'])} of one core.\n"
         total.setdefault(case, {})[level] = stored["cpu_seconds"]
     rows = [[case, cases.load(case).TITLE, *(seconds(total[case].get(level)) for level in ("coarse", "paper"))] for case in cases.NAMES if case in total]
     rows.append(["all", "", *(seconds(sum(t.get(level, 0) for t in total.values())) for level in ("coarse", "paper"))])
