@@ -14,7 +14,7 @@ BLUE, ORANGE, GREEN, VERMILLION, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", 
 COLOURS = [BLUE, ORANGE, GREEN, VERMILLION, PURPLE, SKY, "0.3", "0.6"]
 plt.rcParams.update({"font.size": 9, "axes.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False,
                      "axes.grid": True, "grid.color": "0.92", "legend.frameon": False, "legend.fontsize": 8,
-                     "figure.constrained_layout.use": True, "savefig.dpi": 110, "lines.linewidth": 1.5})
+                     "figure.constrained_layout.use": True, "savefig.dpi": 96, "lines.linewidth": 1.5})
 
 
 def save(figure, path):
@@ -26,7 +26,7 @@ def save(figure, path):
         from PIL import Image
     except ImportError:
         return
-    Image.open(path).convert("RGB").quantize(160).save(path, optimize=True)
+    Image.open(path).convert("RGB").quantize(96).save(path, optimize=True)
 
 
 def _unit(vectors):
