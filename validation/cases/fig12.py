@@ -67,8 +67,8 @@ def draw(context, values, path):
             drawing.picture(axes, 1.6)
             axes.set_title(f"{shape}, t = {shot['time']:.3g}, x = {centre[0]:.1f}", fontsize=7)
         last = shots[-1] | {"points": shots[-1]["points"] - shots[-1]["points"].mean(axis=0)}
-        drawing.outline(row[-1], last, normal=1, colors=drawing.VERMILLION, linewidths=1.2)  # x-z
-        drawing.outline(row[-1], last, normal=2, colors=drawing.BLUE, linewidths=1.2)  # x-y
+        drawing.outline(row[-1], last, normal=1, colors="0.7", linewidths=3.0)  # x-z
+        drawing.outline(row[-1], last, normal=2, colors="black", linewidths=0.9)  # x-y
         drawing.picture(row[-1], 1.6)
-        row[-1].set_title("x-z red, x-y blue", fontsize=7)
+        row[-1].set_title("x-z thick, x-y thin", fontsize=7)
     drawing.save(figure, path)
