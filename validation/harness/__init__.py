@@ -1,0 +1,1 @@
+"""What the cases of validation/run.py share: runs of scenes, their files, theory, tables and pictures."""

@@ -1,0 +1,48 @@
+"""Tables as they are stored, printed and put into docs/validation.md."""
+
+import math
+import re
+
+
+def table(title, columns, rows):
+    return {"title": title, "columns": list(columns), "rows": [list(row) for row in rows]}
+
+
+def number(value, digits=4):
+    """Enough digits to compare, no more."""
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    if isinstance(value, str):
+        return value
+    if value == 0:
+        return "0"
+    if abs(value) < 1e-3 or abs(value) >= 1e5:
+        return f"{value:.2e}"
+    return f"{value:.{digits}g}"
+
+
+def percent(ours, reference):
+    return f"{100 * (ours / reference - 1):+.1f} %" if reference and not math.isnan(reference) else ""
+
+
+def markdown(stored):
+    lines = [stored["title"], ""] if stored["title"] else []
+    lines += ["| " + " | ".join(stored["columns"]) + " |", "|" + "---|" * len(stored["columns"])]
+    lines += ["| " + " | ".join(number(cell) for cell in row) + " |" for row in stored["rows"]]
+    return "\n".join(lines)
+
+
+def text(stored):
+    cells = [stored["columns"]] + [[number(cell) for cell in row] for row in stored["rows"]]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(stored["columns"]))]
+    return "\n".join([stored["title"]] + ["  " + "  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in cells])
+
+
+def insert(document, blocks):
+    """Replaces what is between <!-- results NAME --> and <!-- end -->; blocks: text by name."""
+
+    def filled(match):
+        name = match.group(1)
+        return f"<!-- results {name} -->\n{blocks[name]}\n<!-- end -->" if name in blocks else match.group(0)
+
+    return re.sub(r"<!-- results (\S+) -->\n.*?<!-- end -->", filled, document, flags=re.DOTALL)
