@@ -54,7 +54,7 @@ void ImplicitMotion::advance(double dt, const VelocityAt& velocity_at, vesicle::
   const Surface& surface = membrane.surface();
   velocity_at(surface.positions(), velocities.fluid);
   find_mesh_velocity(surface, velocities);
-  velocities.mesh = mesh_velocity_;
+  velocities.membrane = velocity_;
   find_rates(surface);
   if (!has_stiffness_) {
     largest_tension_ = std::max(0.0, membrane.tension().maxCoeff());

@@ -26,7 +26,7 @@ class MaterialMotion final : public MembraneMotion {
     if (scene.time.adaptive) error_.emplace(positions_.rows());
     filtered_velocity_ = [this](double fraction, std::span<const double> state, std::span<double> velocity) {
       evaluate(fraction, Eigen::Map<const vesicle::VectorField>(state.data(), positions_.rows(), 3));
-      Eigen::Map<vesicle::VectorField>(velocity.data(), positions_.rows(), 3) = step_.velocities->mesh;
+      Eigen::Map<vesicle::VectorField>(velocity.data(), positions_.rows(), 3) = step_.velocities->membrane;
     };
   }
 
@@ -43,12 +43,12 @@ class MaterialMotion final : public MembraneMotion {
     }
     membrane.correct_displacement(displacement_);
     positions_ = membrane.positions() + displacement_;
-    membrane.advance(positions_, velocities.fluid, velocities.mesh, dt);
+    membrane.advance(positions_, velocities.fluid, velocities.membrane, dt);
     if (error_) error_->add(dt, displacement_);
   }
 
   void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) override {
-    membrane.filter_velocity(velocities.fluid, dt, velocities.mesh);
+    membrane.filter_velocity(velocities.fluid, dt, velocities.membrane);
   }
 
   std::optional<double> position_error() const override { return error_ ? error_->value() : std::nullopt; }

@@ -25,8 +25,8 @@ class VelocityAt {
 
 /// Velocities at the markers, shape (markers, 3).
 struct MarkerVelocities {
-  vesicle::VectorField fluid;  ///< U, interpolated
-  vesicle::VectorField mesh;   ///< U~, which moved the markers
+  vesicle::VectorField fluid;     ///< U, interpolated
+  vesicle::VectorField membrane;  ///< U~, with the degrees that this motion keeps of it: what strains the membrane
 };
 
 /// Parts of a motion that a scene can switch off, and how often they were entered.

@@ -132,7 +132,7 @@ void ShapeFollowing::advance(double dt, const VelocityAt& velocity_at, vesicle::
   largest_tension_ = std::max(0.0, membrane.tension().maxCoeff());
   velocity_at(surface.positions(), velocities.fluid);
   find_mesh_velocity(surface, velocities);
-  velocities.mesh = mesh_velocity_;
+  velocities.membrane = velocity_;
   find_rates(surface);
   find_stiffness(dt, surface);
   solve_increment(dt);
@@ -153,7 +153,7 @@ void ShapeFollowing::finish(double dt, vesicle::Membrane& membrane) {
 
 void ShapeFollowing::mesh_velocity(double /*dt*/, vesicle::Membrane& membrane, MarkerVelocities& velocities) {
   find_mesh_velocity(membrane.surface(), velocities);
-  velocities.mesh = mesh_velocity_;
+  velocities.membrane = velocity_;
 }
 
 // U with the resolved degrees, and W.

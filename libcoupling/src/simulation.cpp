@@ -247,7 +247,7 @@ std::vector<vesicle::Diagnostics> Simulation::measure() {
   const PhaseTimer timer(phases_.diagnostics);
   std::vector<vesicle::Diagnostics> all;
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
-    all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.mesh));
+    all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.membrane));
   return all;
 }
 

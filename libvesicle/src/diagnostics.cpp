@@ -110,7 +110,8 @@ double spectrum_tail(const Surface& surface) {
   return coefficients.energy(two_thirds_degrees(degrees), degrees) / coefficients.energy(1, degrees);
 }
 
-Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& mesh_velocity) {
+Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity,
+                    const VectorField& membrane_velocity) {
   const Surface& surface = membrane.surface();
   const ScalarField& areas = surface.area_weight();
   const VolumeMoments moments = volume_moments(surface);
@@ -128,7 +129,7 @@ Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity
   d.deformation = are_of_a_body(moments) ? deformation(moments) : undefined;
   d.inclination_angle = inclination_angle(moments);
   d.tank_treading_frequency = tank_treading_frequency(surface, moments.centroid, marker_velocity);
-  d.surface_divergence_max = surface.max_divergence(mesh_velocity);
+  d.surface_divergence_max = surface.max_divergence(membrane_velocity);
   d.max_local_area_error = (areas / membrane.target_areas() - 1).abs().maxCoeff();
   d.max_label_area_error = (areas / membrane.initial_areas() - 1).abs().maxCoeff();
   d.bending_energy = bending_energy(surface, membrane.parameters().spontaneous_curvature);

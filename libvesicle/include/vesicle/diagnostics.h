@@ -65,11 +65,11 @@ struct Diagnostics {
   double deformation = 0;                                    ///< see deformation()
   double inclination_angle = 0;                              ///< radians, see inclination_angle()
   double tank_treading_frequency = 0;                        ///< Eq. (34)
-  double surface_divergence_max = 0;                         ///< max |div_Gamma| of the mesh velocity
-  double max_local_area_error = 0;                           ///< max |dA / dA0 - 1| against the target areas
-  double max_label_area_error = 0;  ///< max |dA / dA(0) - 1| at the same label: the column of Table 3
-  double bending_energy = 0;        ///< (1/2) int (H - H0)^2 dA, without 1/Ca
-  double elastic_energy = 0;        ///< of the tension and the penalties that are switched on
+  double surface_divergence_max = 0;  ///< max |div_Gamma U~|, of the velocity that strains the membrane
+  double max_local_area_error = 0;    ///< max |dA / dA0 - 1| against the target areas
+  double max_label_area_error = 0;    ///< max |dA / dA(0) - 1| at the same label: the column of Table 3
+  double bending_energy = 0;          ///< (1/2) int (H - H0)^2 dA, without 1/Ca
+  double elastic_energy = 0;          ///< of the tension and the penalties that are switched on
   double tension_min = 0;
   double tension_max = 0;
   double spectrum_tail = 0;      ///< see spectrum_tail()
@@ -79,9 +79,9 @@ struct Diagnostics {
 };
 
 /// Measures a membrane at its last geometry. marker_velocity: the interpolated U, for Eq. (34);
-/// mesh_velocity: the velocity whose surface divergence is reported (the paper's Table 3 uses the filtered
+/// membrane_velocity: the velocity whose surface divergence is reported (the paper's Table 3 uses the filtered
 /// one). Both of shape (markers, 3).
 /// @throws std::invalid_argument for a wrong size, std::domain_error if a velocity is not finite.
-Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& mesh_velocity);
+Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& membrane_velocity);
 
 }  // namespace vesiflow::vesicle
