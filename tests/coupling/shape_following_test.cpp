@@ -160,12 +160,12 @@ TEST(ShapeFollowing, IsStableWithViscosityContrastAndInertia) {
 }
 
 // g = 83. What the fluid remembers of the corrections decides here: paid for as if its answer within the sheet were the one that Z
-// is made of, 0.22 is seen, and at larger g the run stops.
+// is made of, 0.6 is seen, and at larger g the run stops.
 TEST(ShapeFollowing, IsQuietAtAReynoldsNumberOfTen) {
   const vesicle::Diagnostics d =
       at_end(following(4000, {"fluid.reynolds_number=10", "mesh.latitudes=20", "vesicles.0.reduced_volume=0.9",
                               "vesicles.0.rotation_deg=0", "time.step=1/48", "time.end=6"}));
-  EXPECT_LT(d.surface_divergence_max, 0.08);  // 0.03 is seen
+  EXPECT_LT(d.surface_divergence_max, 0.05);  // 0.007 is seen
 }
 
 TEST(ShapeFollowing, RelaxationAtRestLosesEnergyAndStaysInPlace) {
