@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "coupling/errors.h"
+#include "fluid/convection_stability.h"
 #include "fluid/duct_series.h"
-#include "fluid/navier_stokes.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -179,10 +179,13 @@ Flow flow_of(const Scene& scene) {
 
 double stable_convection_step(const Scene& scene) {
   if (scene.fluid.inertia != fluid::Inertia::full) return std::numeric_limits<double>::infinity();
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), largest_viscosity = 1.0;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    largest_viscosity = std::max(largest_viscosity, scene.viscosity_ratio(i));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double h = (scene.domain.upper[axis] - scene.domain.lower[axis]) / scene.domain.cells[axis];
-    least = std::min(least, fluid::stable_convection_step(greatest_speed(scene), h, scene.fluid.reynolds_number));
+    least = std::min(least, fluid::stable_convection_step(greatest_speed(scene), h, scene.fluid.reynolds_number,
+                                                          largest_viscosity, scene.fluid.viscous_treatment));
   }
   return least;
 }

@@ -1,7 +1,5 @@
 #include "fluid/navier_stokes.h"
 
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "stepper.h"
@@ -97,14 +95,6 @@ std::size_t NavierStokes::estimate_memory(const Grid& grid, const FluidParameter
   bytes += estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver);
   if (stokes) return bytes + StokesSolver::estimate_memory(grid, variable);
   return bytes + estimate_solver_memory(momentum_problem(grid, parameters, 1.0, 1.0), parameters.velocity_solver);
-}
-
-double stable_convection_step(double speed, double spacing, double reynolds_number) {
-  const double peclet = reynolds_number * speed * spacing;
-  if (!(peclet > 0.0)) return std::numeric_limits<double>::infinity();
-  const double courant =
-      peclet > 1.0 ? 1.15 / std::cbrt(peclet) + 0.33 / (peclet * peclet) : 1.23 / peclet + 0.25 * peclet;
-  return courant * spacing / speed;
 }
 
 }  // namespace vesiflow::fluid

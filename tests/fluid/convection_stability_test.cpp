@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fluid/convection_stability.h"
 #include "fluid/navier_stokes.h"
 #include "test_fields.h"
 
@@ -31,6 +32,19 @@ TEST(StableConvectionStep, IsThatOfTheStep) {
     EXPECT_LT(after(400, speed, reynolds_number, 0.97 * limit), 1e-6) << peclet;
     EXPECT_GT(after(400, speed, reynolds_number, 1.2 * limit), 1e-5) << peclet;
   }
+}
+
+// From solving the same recurrence independently (companion matrices, 120 phases): C at m = 20 and Pe = 1, 5.6.
+TEST(StableConvectionStep, IsShorterWithAnExtrapolatedViscousTerm) {
+  const double speed = 2.0, h = 0.1;
+  const auto courant = [&](double peclet, double m, ViscousTreatment treatment) {
+    return stable_convection_step(speed, h, peclet / (speed * h), m, treatment) * speed / h;
+  };
+  EXPECT_NEAR(courant(1.0, 20, ViscousTreatment::extrapolated), 0.346, 0.004);
+  EXPECT_NEAR(courant(5.6, 20, ViscousTreatment::extrapolated), 0.240, 0.003);
+  EXPECT_NEAR(courant(5.6, 20, ViscousTreatment::explicit_), 3.643, 0.04);
+  EXPECT_NEAR(courant(5.6, 20, ViscousTreatment::implicit), 0.661, 0.007);
+  EXPECT_NEAR(courant(5.6, 1, ViscousTreatment::extrapolated), 0.661, 0.007);
 }
 
 TEST(StableConvectionStep, IsInfiniteWithoutConvection) {

@@ -160,11 +160,4 @@ class NavierStokes {
   std::unique_ptr<Stepper> stepper_;
 };
 
-// Largest time step at which the extrapolated convection is stable for flow along an axis with that speed, in a fluid of viscosity 1 and
-// with that spacing h along the axis. The recurrence for a wave of phase theta from cell to cell,
-//   3/2 u'' - 2 u' + 1/2 u + i C sin(theta) (2 u' - u) + 4 D sin^2(theta/2) u'' = 0,   C = U dt/h,   D = dt/(Re h^2),
-// was solved for the largest C at which it is stable. With Pe = C/D = Re U h that is 1.15 Pe^(-1/3) + 0.33/Pe^2, below Pe = 1
-// 1.23/Pe + 0.25 Pe: fits, from 0.3 % above it to 11 % below it for Pe from 0.1 to 500. Infinite for Re = 0 or U = 0.
-double stable_convection_step(double speed, double spacing, double reynolds_number);
-
 }  // namespace vesiflow::fluid
