@@ -78,7 +78,9 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
   plan.line("time", "{}", describe_time(scene));
-  if (const double limit = stable_convection_step(scene); std::isfinite(limit))
+  constexpr double far = 10.0;
+  const double longest = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
+  if (const double limit = stable_convection_step(scene); limit < far * longest)
     plan.line("convection", "explicit, stable for time.step below about {:.3g}{}", limit,
               scene.time.adaptive       ? "; adaptive steps stay below it"
               : scene.time.step > limit ? "  <- WARNING: beyond it"

@@ -11,8 +11,8 @@ SHOWN, SNAPSHOTS = [1, 5, 9], [0, 2.5, 5, 10, 15]
 
 
 def run_of(context, reynolds, end=20):
-    """With inertia the implicit tension has a limit of stability that falls with Re: a softer membrane and shorter steps. (At 64^3, sigma0 = 600: dt = 1/48 stops
-    at t = 16 for Re = 1, 1/96 at t = 15 for Re = 3, and 1/64 at t = 4.4 and 3.6 for Re = 5 and 9.)"""
+    """With inertia steps are limited by the fluid's convection beside its extrapolated viscous term (docs/time_integration.md#convection): at 64^3, ratio 20 the
+    limits are 1/97, 1/126, 1/133 and 1/139 for Re = 1, 3, 5 and 9, and 1/48, 1/96, 1/64 and 1/64 stop at t = 16, 15, 4.4 and 3.6. sigma0 = 600 is softer than it must be."""
     keys = {"fluid.reynolds_number": reynolds, "time.end": end}
     if reynolds >= 1:
         keys |= {"membrane.sigma0": 600, "time.step": "1/96" if reynolds <= 1 else "1/192"}
