@@ -35,9 +35,9 @@ def compute(context):
         def kind(ratio):
             if ratio not in kinds:
                 run = run_of(context, volume, ratio)
-                course = outputs.course(context.run([run])[run.name])
-                kinds[ratio] = motion(course)
-                values["motions"][run.name] = {"motion": kinds[ratio], **shear.steady(course)}
+                folder = context.run([run])[run.name]
+                kinds[ratio] = motion(outputs.course(folder))
+                values["motions"][run.name] = {"motion": kinds[ratio], **shear.steady(folder)}
             return kinds[ratio]
 
         expected = theory.critical_ratio(volume)

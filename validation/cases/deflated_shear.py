@@ -18,7 +18,7 @@ def compute(context):
     values, rows = {"steady": {}, "series": {}}, []
     for (volume, step), run in runs.items():
         course, summary = outputs.course(folders[run.name]), outputs.summary(folders[run.name])
-        state = shear.steady(course)
+        state = shear.steady(folders[run.name])
         values["steady"][run.name] = state | {"status": summary["status"], "time": summary["time"]}
         values["series"][run.name] = dict(zip(("time", "angle_deg", "frequency"), outputs.thinned(
             course["time"], course["inclination_angle_deg"], course["tank_treading_frequency"])))

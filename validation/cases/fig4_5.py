@@ -3,23 +3,22 @@
 import numpy as np
 
 from harness import drawing, outputs, shear, theory
-from harness.tables import percent, table
+from harness.tables import percent, signed, table
 
 TITLE = "tank-treading: angle, frequency, area errors against time (figures 4, 5)"
 VOLUMES = [0.975, 0.9, 0.8]
-SCHEMES = {"shape following": {}, "corrected": shear.CORRECTED}
 SNAPSHOTS = [0, 1, 3, 15]
 
 
 def compute(context, schemes=None):
     runs = {(scheme, volume): shear.treading(f"{scheme}, {volume}", context, volume, **keys)
-            for scheme, keys in (schemes or SCHEMES).items() for volume in VOLUMES}
+            for scheme, keys in (schemes or {"shape following": {}, "corrected": shear.corrected(context)}).items() for volume in VOLUMES}
     folders = context.run(list(runs.values()))
     values = {"series": {}, "steady": {}}
     rows = []
     for (scheme, volume), run in runs.items():
         course = outputs.course(folders[run.name])
-        state = shear.steady(course)
+        state = shear.steady(folders[run.name])
         early = np.interp(5.0, course["time"], outputs.unwrapped(course["inclination_angle_deg"]))
         errors = {key: float(np.max(np.abs(course[key]))) for key in ("area_error", "volume_error", "max_local_area_error")}
         values["steady"][run.name] = state | {"angle_at_5_deg": float(early)} | errors
@@ -28,8 +27,8 @@ def compute(context, schemes=None):
             outputs.thinned(course["time"], course["inclination_angle_deg"], course["tank_treading_frequency"],
                             course["max_local_area_error"], course["area_error"])))
         angle, frequency = theory.inclination(volume, 1), theory.frequency(volume, 1)
-        rows.append([scheme, volume, state["angle_deg"], angle, f"{state['angle_deg'] - angle:+.2f}", state["frequency"], frequency,
-                     percent(state["frequency"], frequency), f"{early - state['angle_deg']:+.2f}",
+        rows.append([scheme, volume, "stopped" if np.isnan(state["angle_deg"]) else state["angle_deg"], angle, signed(state["angle_deg"] - angle), state["frequency"], frequency,
+                     percent(state["frequency"], frequency), signed(early - state["angle_deg"]),
                      errors["max_local_area_error"], state["area_error"], errors["volume_error"]])
     values["tables"] = [table(
         "Steady values (mean of the last unit of time before t = 15)",

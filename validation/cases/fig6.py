@@ -7,13 +7,14 @@ from harness.tables import percent, table
 
 TITLE = "steady angle and frequency against reduced volume (figure 6)"
 VOLUMES = [0.7, 0.75, 0.8, 0.85, 0.9, 0.925, 0.95, 0.975, 0.99]
-SCHEMES = {"shape following": {}, "corrected": shear.CORRECTED}
+SCHEMES = ["shape following", "corrected"]
 
 
 def run_of(context, scheme, volume):
     """Slender vesicles have tips that need more latitudes."""
     latitudes = {} if volume >= 0.8 else {"mesh.latitudes": 80 if context.paper else 48}
-    return shear.treading(f"{scheme}, {volume}", context, volume, **SCHEMES[scheme], **latitudes)
+    keys = shear.corrected(context) if scheme == "corrected" else {}
+    return shear.treading(f"{scheme}, {volume}", context, volume, **keys, **latitudes)
 
 
 def compute(context):
@@ -28,7 +29,7 @@ def compute(context):
                 values["steady"][f"{scheme}, {volume}"] = None
                 cells += ["stopped", ""]
                 continue
-            state = shear.steady(outputs.course(folder))
+            state = shear.steady(folder)
             values["steady"][f"{scheme}, {volume}"] = state
             cells += [state["angle_deg"], state["frequency"]]
         angle, frequency = theory.inclination(volume, 1), theory.frequency(volume, 1)

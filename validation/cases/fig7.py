@@ -9,7 +9,7 @@ VOLUMES, CAPILLARY = [0.975, 0.9, 0.8], [0.25, 2.5, 25]
 
 def run_of(context, volume, ca):
     """The stiffest and longest starts far from its shape: at 128^3 it stops at t = 0.3 with dt = 1/24."""
-    keys = {"time.end": 5, "membrane.capillary_number": ca} | shear.CORRECTED
+    keys = {"time.end": 5, "membrane.capillary_number": ca} | shear.corrected(context)
     if (volume, ca) == (0.8, 0.25):
         keys["time.step"] = "1/96"
     return shear.treading(f"{volume}, Ca {ca}", context, volume, **keys)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from harness import drawing, outputs, shear, theory
-from harness.tables import table
+from harness.tables import signed, table
 
 TITLE = "steady angle at viscosity ratios 2.7, 5, 8 against excess area (figure 8)"
 RATIOS, VOLUMES = [2.7, 5, 8], [0.985, 0.975, 0.95, 0.925, 0.9]
@@ -21,7 +21,7 @@ def run_of(context, ratio, volume, refined=False, corrected=False):
         n = 192 if context.paper else 96
         keys |= {"domain.cells": [n, n // 2, n], "mesh.latitudes": n // 2}
     if corrected:
-        keys |= shear.CORRECTED
+        keys["coupling.thickness_correction"] = True
     name = f"ratio {ratio}, {volume}{', refined' if refined else ''}{', corrected' if corrected else ''}"
     return shear.treading(name, context, volume, scene=shear.TUMBLING, **shear.HALF, **keys)
 
@@ -33,17 +33,17 @@ def compute(context):
     folders = context.run([*runs.values(), *finer.values(), *thin.values()])
     values, rows, refined = {"steady": {}, "refined": {}}, [], []
     for (ratio, volume), run in runs.items():
-        state = shear.steady(outputs.course(folders[run.name]))
+        state = shear.steady(folders[run.name])
         moving = abs(state["drift_deg"]) > 0.5
         values["steady"][run.name] = state | {"excess_area": theory.excess_area(volume), "moving": bool(moving)}
         expected = theory.inclination(volume, ratio)
         rows.append([ratio, volume, theory.excess_area(volume), state["angle_deg"], f"{state['drift_deg']:+.2f}",
                      "tumbles" if math.isnan(expected) else expected,
-                     "" if math.isnan(expected) else f"{state['angle_deg'] - expected:+.2f}", theory.quasi_spherical_inclination(volume, ratio), state["frequency"]])
+                     signed(state["angle_deg"] - expected), theory.quasi_spherical_inclination(volume, ratio), state["frequency"]])
     for ratio, run in finer.items():
-        state, coarser = shear.steady(outputs.course(folders[run.name])), values["steady"][f"ratio {ratio}, {REFINED}"]
+        state, coarser = shear.steady(folders[run.name]), values["steady"][f"ratio {ratio}, {REFINED}"]
         limit = 3 * state["angle_deg"] - 2 * coarser["angle_deg"]
-        corrected = shear.steady(outputs.course(folders[thin[ratio].name]))["angle_deg"]
+        corrected = shear.steady(folders[thin[ratio].name])["angle_deg"]
         values["refined"][run.name] = state | {"limit_deg": limit, "corrected_deg": corrected}
         expected = theory.inclination(REFINED, ratio)
         refined.append([ratio, coarser["angle_deg"], corrected, state["angle_deg"], limit, "tumbles" if math.isnan(expected) else expected])

@@ -22,7 +22,11 @@ def number(value, digits=4):
 
 
 def percent(ours, reference):
-    return f"{100 * (ours / reference - 1):+.1f} %" if reference and not math.isnan(reference) else ""
+    return f"{100 * (ours / reference - 1):+.1f} %" if reference and not math.isnan(ours / reference) else ""
+
+
+def signed(difference):
+    return "" if math.isnan(difference) else f"{difference:+.2f}"
 
 
 def markdown(stored):
