@@ -7,7 +7,7 @@ TITLE = "figure 5 as the paper computes it: Euler steps, penalty tension and vol
 
 
 def compute(context):
-    return fig4_5.compute(context, {"shape following": {}, "paper's scheme": shear.paper_scheme(128 if context.paper else 64)})
+    return fig4_5.compute(context, {"shape following": {}, "paper's scheme": shear.paper_scheme(128 if context.paper else 64) | shear.HALF})
 
 
 def draw(context, values, path):

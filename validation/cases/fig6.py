@@ -14,7 +14,7 @@ def run_of(context, scheme, volume):
     """Slender vesicles have tips that need more latitudes."""
     latitudes = {} if volume >= 0.8 else {"mesh.latitudes": 80 if context.paper else 48}
     keys = shear.corrected(context) if scheme == "corrected" else {}
-    return shear.treading(f"{scheme}, {volume}", context, volume, **keys, **latitudes)
+    return shear.treading(f"{scheme}, {volume}", context, volume, **shear.HALF, **keys, **latitudes)
 
 
 def compute(context):

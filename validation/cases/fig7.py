@@ -12,7 +12,7 @@ def run_of(context, volume, ca):
     keys = {"time.end": 5, "membrane.capillary_number": ca} | shear.corrected(context)
     if (volume, ca) == (0.8, 0.25):
         keys["time.step"] = "1/96"
-    return shear.treading(f"{volume}, Ca {ca}", context, volume, **keys)
+    return shear.treading(f"{volume}, Ca {ca}", context, volume, **shear.HALF, **keys)
 
 
 def compute(context):
