@@ -7,7 +7,7 @@ namespace {
 int relaxation(int argc, char** argv) {
   return run_scene_app({.name = "relaxation",
                         .description = "Computes vesicles relaxing in fluid at rest from a scene file.",
-                        .flow = vesiflow::coupling::FlowType::rest},
+                        .flows = {{vesiflow::coupling::FlowType::rest, "rest"}}},
                        argc, argv);
 }
 

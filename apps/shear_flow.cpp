@@ -7,7 +7,7 @@ namespace {
 int shear_flow(int argc, char** argv) {
   return run_scene_app({.name = "shear_flow",
                         .description = "Computes vesicles in shear flow from a scene file.",
-                        .flow = vesiflow::coupling::FlowType::shear},
+                        .flows = {{vesiflow::coupling::FlowType::shear, "shear"}}},
                        argc, argv);
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 int vesicles(int argc, char** argv) {
   return run_scene_app(
-      {.name = "vesicles", .description = "Computes vesicles in a flow, both from a scene file.", .flow = {}}, argc,
+      {.name = "vesicles", .description = "Computes vesicles in a flow, both from a scene file."}, argc,
       argv);
 }
 

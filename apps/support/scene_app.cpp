@@ -4,7 +4,7 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
-#include <optional>
+#include <algorithm>
 
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
@@ -47,9 +47,12 @@ Scene scene_of(const Arguments& arguments) {
 
 void require_flow(const SceneApp& app, const Scene& scene, const std::string& file) {
   flow_of(scene);  // refuses what only a program can give
-  if (!app.flow || scene.flow.type == *app.flow) return;
-  throw SceneError(fmt::format("{}: flow.type: {} computes \"{}\" only; use the app vesicles, which computes any", file,
-                               app.name, *app.flow == FlowType::shear ? "shear" : "rest"));
+  const auto is_that = [&](const SceneApp::NamedFlow& flow) { return flow.type == scene.flow.type; };
+  if (app.flows.empty() || std::ranges::any_of(app.flows, is_that)) return;
+  std::string names;
+  for (const auto& flow : app.flows) names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", flow.name);
+  throw SceneError(fmt::format("{}: flow.type: {} computes {} only; use the app vesicles, which computes any", file,
+                               app.name, names));
 }
 
 std::filesystem::path directory_of(const Arguments& arguments) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "coupling/scene.h"
 
@@ -9,7 +9,11 @@
 struct SceneApp {
   std::string name;
   std::string description;
-  std::optional<vesiflow::coupling::FlowType> flow;  ///< the flow.type a scene of this app must have, if it must
+  struct NamedFlow {
+    vesiflow::coupling::FlowType type;
+    std::string name;  ///< as scenes have it
+  };
+  std::vector<NamedFlow> flows = {};  ///< what flow.type may be; anything if empty
 };
 
 /// The whole program: reads the command line and the scene, prints the plan or runs it. Returns the exit code.
