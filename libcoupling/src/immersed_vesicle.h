@@ -11,6 +11,7 @@
 #include "fluid/field.h"
 #include "membrane_motion.h"
 #include "thickness_correction.h"
+#include "velocity_noise.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {
@@ -45,6 +46,7 @@ struct ImmersedVesicle {
   MarkerVelocities velocities;
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
+  VelocityNoise noise;  ///< of velocities.membrane
   std::int64_t redistributions = 0;
   double area = 0.0, volume = 0.0;  ///< before an adaptive step
   bool is_current = false;          ///< whether geometry and forces are those of the membrane's state

@@ -112,6 +112,18 @@ void check_physics(const Scene& scene, const std::string& name) {
         name));
 }
 
+void check_limits(const Scene& scene, const std::string& name) {
+  if (scene.limits.on_blowup == OnBlowUp::stop) return;
+  if (scene.time.adaptive)
+    throw SceneError(fmt::format(
+        "{}: limits.on_blowup = \"reduce_step\": is for equal steps; time.adaptive = true shortens its steps by itself",
+        name));
+  if (scene.output.checkpoint_every == 0.0)
+    throw SceneError(fmt::format(
+        "{}: limits.on_blowup = \"reduce_step\": goes back to a checkpoint, so output.checkpoint_every must be > 0",
+        name));
+}
+
 // A membrane that is thin answers faster: too fast for an explicit tension that is right for a thick one.
 void check_thickness(const Scene& scene, const std::string& name) {
   constexpr double largest = 3.0, largest_reynolds_number = 0.1;
@@ -313,6 +325,7 @@ void check_scene(const Scene& scene, const std::string& name) {
   check_time_keys(scene, name);
   check_flow(scene, name);
   check_thickness(scene, name);
+  check_limits(scene, name);
   check_gravity(scene, name);
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {

@@ -135,8 +135,12 @@ void visit_keys(Scene& scene, KeyVisitor& v) {
   v.number("time.largest_step", scene.time.largest_step, Range::positive());
 
   v.number("limits.local_area_error", scene.limits.local_area_error, Range::positive());
+  v.number("limits.velocity_noise", scene.limits.velocity_noise, Range::positive());
   v.number("limits.area_error", scene.limits.area_error, Range::positive());
   v.number("limits.volume_error", scene.limits.volume_error, Range::positive());
+  v.number("limits.wall_time", scene.limits.wall_time, Range::from(0.0));
+  choice_of(v, "limits.on_blowup", scene.limits.on_blowup, {"stop", "reduce_step"});
+  v.integer("limits.retries", scene.limits.retries, Range::between(1, 30));
 
   v.number("output.diagnostics_every", scene.output.diagnostics_every, Range::from(0.0));
   v.number("output.vesicle_every", scene.output.vesicle_every, Range::from(0.0));

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
+#include "blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
@@ -107,6 +110,10 @@ Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
   last_redistributions_.reserve(vesicles_.size());
   if (scene_.time.markers == "implicit") implicit_step_ = std::make_unique<ImplicitStep>(scene_, vesicles_);
   if (scene_.time.adaptive) step_control_ = std::make_unique<StepControl>(scene_);
+  const bool walls_are_known = type != FlowType::custom;
+  guard_ = std::make_unique<BlowUpGuard>(
+      scene_, walls_are_known ? flow.greatest_speed : std::numeric_limits<double>::infinity());
+  plan_last_step();
   for (auto& v : vesicles_) v->interpolate(time_step(), fluid_.velocity());
 }
 
@@ -118,6 +125,7 @@ void Simulation::step() {
       take_adaptive_step();
     else
       take_step(scene_.time.step);
+    check_growth();
     redistribute_markers();
   } catch (const std::domain_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));
@@ -225,6 +233,7 @@ void Simulation::redistribute_markers() {
     const vesicle::RedistributionReport report = v.membrane.redistribute(redistributions_.at(scene_.latitudes(i)));
     if (!report.moved) continue;
     v.motion->restart();
+    v.noise.restart();
     v.is_current = false;
     v.interpolate(time_step(), fluid_.velocity());
     ++v.redistributions;
@@ -241,6 +250,18 @@ void Simulation::check_limits(std::size_t i) const {
         fmt::format("the local area error of vesicle {} is {:.3g}, above limits.local_area_error = {:g}", i, worst,
                     scene_.limits.local_area_error),
         blow_up_advice(scene_));
+}
+
+void Simulation::check_growth() {
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    const PhaseTimer timer(phases_.mesh);
+    ImmersedVesicle& v = *vesicles_[i];
+    v.noise.update(v.velocities.membrane);
+    if (const std::string found = guard_->look_at(i, v.noise, v.membrane.positions()); !found.empty())
+      throw SimulationStopped(found, blow_up_advice(scene_));
+  }
+  if (const std::string found = guard_->look_at(fluid_.velocity(), steps()); !found.empty())
+    throw SimulationStopped(found, blow_up_advice(scene_));
 }
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {
@@ -270,6 +291,14 @@ const vesicle::Membrane& Simulation::membrane(std::size_t i) {
   return vesicles_[i]->membrane;
 }
 
+double Simulation::velocity_noise(std::size_t i) const {
+  return vesicles_.at(i)->noise.value();
+}
+
+bool Simulation::suspects_blow_up() const {
+  return guard_->suspects();
+}
+
 long Simulation::redistributions(std::size_t i) const {
   return static_cast<long>(vesicles_.at(i)->redistributions);
 }
@@ -287,9 +316,22 @@ MarkerStatistics Simulation::marker_statistics(std::size_t i) const {
 }
 
 bool Simulation::finished() const {
-  if (!step_control_) return steps() >= scene_.steps();
+  if (!step_control_) return steps() >= last_step_;
   constexpr double round_off = 1e-12;
   return time() >= scene_.time.end * (1.0 - round_off);
+}
+
+void Simulation::plan_last_step() {
+  constexpr double round_off = 1e-6;  // of a step
+  last_step_ = steps() + static_cast<long>(std::max(0.0, std::ceil((scene_.time.end - time()) / scene_.time.step - round_off)));
+}
+
+void Simulation::set_time_step(double dt) {
+  if (!(dt > 0.0) || !std::isfinite(dt))
+    throw std::invalid_argument(fmt::format("the time step {} must be > 0 and finite", dt));
+  if (step_control_) throw std::invalid_argument("adaptive steps have a length of their own");
+  scene_.time.step = dt;
+  plan_last_step();
 }
 
 double Simulation::time_step() const {
@@ -341,9 +383,11 @@ void Simulation::restore(const SimulationState& state) {
     v.is_current = false;
     v.restore_history(fluid_.clock().time_step, state.vesicles[i].motion_history);
     v.redistributions = state.vesicles[i].redistributions;
+    v.noise.restart();
     v.interpolate(time_step(), fluid_.velocity());
   }
   if (step_control_) step_control_->restore(state.step_control);
+  plan_last_step();
   last_redistributions_.clear();
 }
 

@@ -22,6 +22,8 @@ enum class FlowType { rest, shear, oscillating_shear, extension, plane_poiseuill
 enum class Extension { planar, uniaxial };
 enum class FlowStart { flow, rest };
 enum class Shape { sphere, prolate, oblate, ellipsoid, biconcave, harmonics, coefficients, mesh };
+/// What a run does that cannot go on: it stops, or goes back to its last checkpoint and takes half the step.
+enum class OnBlowUp { stop, reduce_step };
 enum class Redistribute { never, when_needed };
 /// The fluid velocity in which markers move through a step: that of its end, or linear in time from its start to its end.
 enum class FluidVelocity { frozen, interpolated };
@@ -140,8 +142,12 @@ struct Scene {
   } time;
   struct Limits {
     double local_area_error = 0.5;  ///< the run stops beyond it
+    double velocity_noise = 0.5;    ///< and beyond this share of a membrane's velocity that changes from step to step and back
     double area_error = 1e-3;       ///< relative change of an area that an adaptive step may make
     double volume_error = 1e-3;     ///< and of a volume
+    double wall_time = 0.0;         ///< seconds after which a run ends with a checkpoint; 0: none
+    OnBlowUp on_blowup = OnBlowUp::stop;
+    int retries = 3;  ///< of on_blowup = reduce_step, in a run
   } limits;
   struct Output {  ///< intervals in time; 0 is never
     double diagnostics_every = 0.05;

@@ -42,6 +42,7 @@ class ExternalForces;
 class ImplicitStep;
 class StepControl;
 class ViscosityContrast;
+class BlowUpGuard;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
 class Simulation {
@@ -61,7 +62,7 @@ class Simulation {
   /// One time step (Steps 1 to 5 of the paper), of the scene's length or, if time.adaptive, as long as its errors allow: a step
   /// whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a look at the meshes and,
   /// where one has passed a limit of the scene, its redistribution along the membrane.
-  /// \throws SimulationStopped when the state is not finite, a limit is passed or a marker meets a wall, with adaptive steps
+  /// \throws SimulationStopped when the state is not finite or grows by itself, a limit is passed or a marker meets a wall, with adaptive steps
   /// when that happens, or the errors are too large, at time.smallest_step: the state is then that before the step
   void step();
 
@@ -69,6 +70,11 @@ class Simulation {
   bool finished() const;
   /// Length of the last step; of the first before it.
   double time_step() const;
+  /// Number of the step that reaches time.end, if steps stay as long as they are. Of equal steps.
+  long last_step() const { return last_step_; }
+  /// Takes steps of that length from now on: time.step of scene() becomes dt. For equal steps.
+  /// \throws std::invalid_argument when it is not positive and finite, or steps are adaptive
+  void set_time_step(double dt);
   /// Adaptive steps that were taken back.
   long rejected_steps() const { return rejected_steps_; }
   /// What moving the markers took.
@@ -96,6 +102,10 @@ class Simulation {
   const vesicle::Membrane& membrane(std::size_t vesicle);
   /// Interpolated fluid velocity that moved the markers in the last step (markers x 3).
   const vesicle::VectorField& marker_velocity(std::size_t vesicle) const;
+  /// Part of the membrane's velocity that changes from step to step and back: max |U_n - 2 U_(n-1) + U_(n-2)|/4 over the markers.
+  double velocity_noise(std::size_t vesicle) const;
+  /// Whether that is above limits.velocity_noise: it may be the start of a blow-up.
+  bool suspects_blow_up() const;
   /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
   const fluid::Field<fluid::Cell>* viscosity() const;
   Phases phases() const;
@@ -122,6 +132,8 @@ class Simulation {
   void move_markers(double dt);
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
+  void check_growth();
+  void plan_last_step();
 
   Scene scene_;
   std::unique_ptr<ViscosityContrast> contrast_;  // where there is one
@@ -135,6 +147,8 @@ class Simulation {
   std::unique_ptr<StepControl> step_control_;    ///< of adaptive steps
   std::vector<VesicleState> remembered_;         ///< before the step that is tried
   long rejected_steps_ = 0;
+  long last_step_ = 0;
+  std::unique_ptr<BlowUpGuard> guard_;
 };
 
 /// The scene's box as a grid.

@@ -1,0 +1,77 @@
+#include "blow_up_guard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace vesiflow::coupling {
+namespace {
+
+constexpr int most_noisy_steps = 8;
+constexpr double smallest_speed = 0.1;  // in r/t_c, below which noise is harmless
+constexpr long fluid_interval = 8;
+constexpr double largest_overshoot = 3.0;
+
+struct Peak {
+  double speed = 0.0;
+  std::ptrdiff_t index = 0;
+};
+
+template <class Centring>
+Peak peak_of(const fluid::Field<Centring>& component) {
+  const double* values = component.data();
+  const auto size = static_cast<std::ptrdiff_t>(component.size());
+  double greatest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : greatest)
+  for (std::ptrdiff_t i = 0; i < size; ++i) greatest = std::max(greatest, std::abs(values[i]));
+  const auto is_peak = [greatest](double value) { return std::abs(value) == greatest; };
+  return {greatest, std::find_if(values, values + size, is_peak) - values};
+}
+
+}  // namespace
+
+BlowUpGuard::BlowUpGuard(const Scene& scene, double wall_speed)
+    : limit_(scene.limits.velocity_noise),
+      known_speed_(std::max(wall_speed, smallest_speed)),
+      too_noisy_(scene.vesicles.size(), 0) {}
+
+std::string BlowUpGuard::look_at(std::size_t vesicle, const VelocityNoise& noise,
+                                 const vesicle::VectorField& positions) {
+  known_speed_ = std::max(known_speed_, noise.greatest_speed());
+  const double share = noise.value() / std::max(noise.greatest_speed(), smallest_speed);
+  int& count = too_noisy_[vesicle];
+  count = share > limit_ ? count + 1 : 0;
+  if (count < most_noisy_steps) return {};
+  const auto x = positions.row(noise.marker());
+  return fmt::format(
+      "the velocity of the membrane of vesicle {} changes by {:.3g} from step to step and back, {:.2g} of its greatest speed, for {} steps "
+      "on end (limits.velocity_noise = {:g}); most at marker {}, ({:.3g}, {:.3g}, {:.3g})",
+      vesicle, noise.value(), share, count, limit_, noise.marker(), x[0], x[1], x[2]);
+}
+
+std::string BlowUpGuard::look_at(const fluid::FaceVector& velocity, long step) {
+  if (step % fluid_interval != 0 || !std::isfinite(known_speed_)) return {};
+  const auto beyond = [&](const auto& component, char axis) -> std::string {
+    const Peak peak = peak_of(component);
+    if (peak.speed <= largest_overshoot * known_speed_) return {};
+    const std::ptrdiff_t row = component.stride(1), plane = component.stride(2);
+    const fluid::Vector3 x =
+        component.position(static_cast<int>(peak.index % row) - 1, static_cast<int>(peak.index % plane / row) - 1,
+                           static_cast<int>(peak.index / plane) - 1);
+    return fmt::format(
+        "the fluid's velocity along {} is {:.3g} at ({:.3g}, {:.3g}, {:.3g}), where walls and membranes have had {:.3g} "
+        "at most",
+        axis, peak.speed, x[0], x[1], x[2], known_speed_);
+  };
+  for (std::string found : {beyond(velocity.x, 'x'), beyond(velocity.y, 'y'), beyond(velocity.z, 'z')})
+    if (!found.empty()) return found;
+  return {};
+}
+
+bool BlowUpGuard::suspects() const {
+  return std::ranges::any_of(too_noisy_, [](int steps) { return steps > 0; });
+}
+
+}  // namespace vesiflow::coupling

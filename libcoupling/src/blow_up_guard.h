@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "coupling/scene.h"
+#include "fluid/field.h"
+#include "velocity_noise.h"
+
+namespace vesiflow::coupling {
+
+/// Finds velocities that grow by themselves, while they are still finite.
+///
+/// Membranes: their noise (velocity_noise.h) is above limits.velocity_noise times their greatest speed in eight steps on end.
+/// Speeds below 0.1 r/t_c count as that. Runs that are stable have had up to 0.25 in their first ten steps and below 0.1 later, most below
+/// 0.01; unstable ones reach 0.5 to 1 (docs/stability.md#guard).
+///
+/// Fluid, in every eighth step: a component of the velocity is above three times all that walls and membranes have had. Not with a flow of
+/// one's own, whose walls are not known.
+class BlowUpGuard {
+ public:
+  /// \param wall_speed greatest velocity of the walls; infinity if it is not known
+  BlowUpGuard(const Scene& scene, double wall_speed);
+
+  /// After a step. Each returns what it has found, or nothing.
+  std::string look_at(std::size_t vesicle, const VelocityNoise& noise, const vesicle::VectorField& positions);
+  std::string look_at(const fluid::FaceVector& velocity, long step);
+
+  /// Whether the noise of a membrane is above its limit: a checkpoint would keep it.
+  bool suspects() const;
+
+ private:
+  double limit_;
+  double known_speed_;         // greatest of walls and membranes
+  std::vector<int> too_noisy_;  // steps on end, for each membrane
+};
+
+}  // namespace vesiflow::coupling
