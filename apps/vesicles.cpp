@@ -5,9 +5,8 @@
 namespace {
 
 int vesicles(int argc, char** argv) {
-  return run_scene_app(
-      {.name = "vesicles", .description = "Computes vesicles in a flow, both from a scene file."}, argc,
-      argv);
+  return run_scene_app({.name = "vesicles", .description = "Computes vesicles in a flow, both from a scene file."},
+                       argc, argv);
 }
 
 }  // namespace

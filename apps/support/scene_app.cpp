@@ -93,5 +93,5 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   options.quiet = arguments.quiet;
   const RunStatus status = run(simulation, options);
   if (!arguments.quiet) fmt::print("results in {}\n", options.directory.string());
-  return status == RunStatus::completed ? exit_code::success : exit_code::interrupted;
+  return exit_code::of(status);
 }

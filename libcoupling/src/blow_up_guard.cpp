@@ -46,7 +46,8 @@ std::string BlowUpGuard::look_at(std::size_t vesicle, const VelocityNoise& noise
   if (count < most_noisy_steps) return {};
   const auto x = positions.row(noise.marker());
   return fmt::format(
-      "the velocity of the membrane of vesicle {} changes by {:.3g} from step to step and back, {:.2g} of its greatest speed, for {} steps "
+      "the velocity of the membrane of vesicle {} changes by {:.3g} from step to step and back, {:.2g} of its greatest "
+      "speed, for {} steps "
       "on end (limits.velocity_noise = {:g}); most at marker {}, ({:.3g}, {:.3g}, {:.3g})",
       vesicle, noise.value(), share, count, limit_, noise.marker(), x[0], x[1], x[2]);
 }
@@ -61,7 +62,8 @@ std::string BlowUpGuard::look_at(const fluid::FaceVector& velocity, long step) {
         component.position(static_cast<int>(peak.index % row) - 1, static_cast<int>(peak.index % plane / row) - 1,
                            static_cast<int>(peak.index / plane) - 1);
     return fmt::format(
-        "the fluid's velocity along {} is {:.3g} at ({:.3g}, {:.3g}, {:.3g}), where walls and membranes have had {:.3g} "
+        "the fluid's velocity along {} is {:.3g} at ({:.3g}, {:.3g}, {:.3g}), where walls and membranes have had "
+        "{:.3g} "
         "at most",
         axis, peak.speed, x[0], x[1], x[2], known_speed_);
   };

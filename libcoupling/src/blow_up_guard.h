@@ -30,7 +30,7 @@ class BlowUpGuard {
 
  private:
   double limit_;
-  double known_speed_;         // greatest of walls and membranes
+  double known_speed_;          // greatest of walls and membranes
   std::vector<int> too_noisy_;  // steps on end, for each membrane
 };
 

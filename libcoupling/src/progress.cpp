@@ -38,7 +38,8 @@ std::string drift(Simulation& simulation) {
 // Of adaptive steps, whose number is not known, the present length instead.
 std::string steps_in_all(const Simulation& simulation) {
   const Scene& scene = simulation.scene();
-  return scene.time.adaptive ? fmt::format(" of {:.2g}", simulation.time_step()) : fmt::format("/{}", simulation.last_step());
+  return scene.time.adaptive ? fmt::format(" of {:.2g}", simulation.time_step())
+                             : fmt::format("/{}", simulation.last_step());
 }
 
 }  // namespace

@@ -107,8 +107,7 @@ void DiagnosticsTable::rewind(long step) {
   write_text_atomically(file_, kept);
 }
 
-void DiagnosticsTable::write(Simulation& simulation) {
-  const std::vector<vesicle::Diagnostics> all = simulation.measure();
+void DiagnosticsTable::write(const Simulation& simulation, std::span<const vesicle::Diagnostics> all) {
   const bool has_distances = all.size() > 1;
   const std::vector<double> distances = has_distances ? simulation.nearest_distances() : std::vector<double>{};
   std::string text;

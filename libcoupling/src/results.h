@@ -2,17 +2,33 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "coupling/run.h"
 #include "coupling/simulation.h"
+#include "run_quality.h"
 
 namespace vesiflow::coupling {
 
 /// What summary.json says of the run besides the state of the simulation.
 struct RunRecord {
+  /// A step that could not be taken, and with what the run went on.
+  struct Retry {
+    long step;    ///< that failed
+    double time;  ///< before it
+    std::string cause;
+    long from_step;    ///< of the checkpoint
+    double time_step;  ///< from there on
+  };
+
+  explicit RunRecord(const Scene& scene) : quality(scene) {}
+
   std::string status = "running";
   std::optional<std::string> stop_reason;
+  std::vector<Retry> retries;
+  RunQuality quality;
   long steps_taken = 0;      ///< by this process
   fluid::PhaseAccount wall;  ///< of these steps, output included
   fluid::PhaseAccount output_table, output_vesicle, output_fluid, output_checkpoint;
@@ -26,13 +42,14 @@ void prepare_directory(const std::filesystem::path& directory);
 std::optional<std::filesystem::path> move_earlier_results(const std::filesystem::path& directory);
 
 void write_summary(const std::filesystem::path& directory, const RunOptions& options, Simulation& simulation,
-                   const RunRecord& record);
+                   RunRecord& record);
 
 /// diagnostics.csv: one whole line per vesicle and time, appended at once.
 class DiagnosticsTable {
  public:
   explicit DiagnosticsTable(const std::filesystem::path& directory);
-  void write(Simulation& simulation);
+  /// A row for each vesicle, of what measure() has given.
+  void write(const Simulation& simulation, std::span<const vesicle::Diagnostics> all);
   /// Removes the rows after `step`: a restarted run writes them again.
   void rewind(long step);
   long last_step() const { return last_step_; }

@@ -4,7 +4,8 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -17,36 +18,10 @@
 #include "progress.h"
 #include "results.h"
 #include "snapshot_files.h"
+#include "stop_request.h"
 
 namespace vesiflow::coupling {
 namespace {
-
-std::atomic<bool> interrupt_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free);  // may be set in a signal handler
-
-// Turns Ctrl-C and SIGTERM into a request to stop after the step under way. A second one kills as usual.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupt_requested = false;
-    old_interrupt_ = std::signal(SIGINT, request);
-    old_terminate_ = std::signal(SIGTERM, request);
-  }
-  ~InterruptGuard() {
-    std::signal(SIGINT, old_interrupt_);
-    std::signal(SIGTERM, old_terminate_);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  static void request(int signal) {
-    interrupt_requested = true;
-    std::signal(signal, SIG_DFL);
-  }
-  void (*old_interrupt_)(int);
-  void (*old_terminate_)(int);
-};
 
 // Whether the step that ended at `time` is the one for a multiple of `every`: the nearest of equal steps, and the first at or
 // beyond it where steps are adaptive and the next is not known.
@@ -80,7 +55,7 @@ class OutputTimer {
 class Run {
  public:
   Run(Simulation& simulation, const RunOptions& options)
-      : simulation_(simulation), options_(options), directory_(options.directory) {}
+      : simulation_(simulation), options_(options), directory_(options.directory), record_(simulation.scene()) {}
 
   RunStatus execute();
 
@@ -95,10 +70,16 @@ class Run {
   void rewind_files();
   void log_redistributions();
   void record(bool last);
+  void take_step();
+  void go_back(const SimulationStopped& reason);
+  std::optional<RunStatus> wants_to_end() const;
+  bool spoilt();
   void warn_of_resolution();
   void checkpoint();
   void finish(const std::string& status);
   [[noreturn]] void stop(const SimulationStopped& reason);
+  bool may_go_back() const;
+  void report_quality();
 
   Simulation& simulation_;
   const RunOptions& options_;
@@ -108,10 +89,27 @@ class Run {
   std::optional<FluidSnapshots> fluid_snapshots_;
   std::optional<std::filesystem::path> last_checkpoint_;
   long checkpointed_step_ = -1;
+  RunQuality::Errors errors_at_checkpoint_;
   std::vector<bool> warned_;  ///< of the resolution, per vesicle
+  bool warned_of_noise_ = false;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<Progress> progress_;
   RunRecord record_;
 };
+
+const char* name_of(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::terminated:
+      return "terminated";
+    case RunStatus::out_of_time:
+      return "out of time";
+  }
+  return "completed";
+}
 
 // A build without HDF5 refuses a scene that asks for its files, before anything is touched.
 void require_hdf5(const Scene::Output& output) {
@@ -177,6 +175,7 @@ void Run::checkpoint() {
   write_checkpoint(checkpoint_file(), simulation_);
   last_checkpoint_ = checkpoint_file();
   checkpointed_step_ = simulation_.steps();
+  errors_at_checkpoint_ = record_.quality.errors();
   write_summary(directory_, options_, simulation_, record_);
 }
 
@@ -191,7 +190,9 @@ void Run::record(bool last) {
   };
   if (wanted(output.diagnostics_every) && table_->last_step() < step) {
     const OutputTimer timer(record_.output_table, simulation_);
-    table_->write(simulation_);
+    const std::vector<vesicle::Diagnostics> all = simulation_.measure();
+    table_->write(simulation_, all);
+    record_.quality.observe(simulation_, all);
     warn_of_resolution();
   }
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) {
@@ -202,11 +203,26 @@ void Run::record(bool last) {
     const PhaseTimer timer(record_.output_fluid);
     fluid_snapshots_->write(simulation_);
   }
-  const bool at_start = step == 0 && !last;  // nothing to lose yet
-  if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step) {
+  // At the start there is nothing to lose yet, but a state to go back to.
+  const bool at_start = step == 0 && !last && simulation_.scene().limits.on_blowup == OnBlowUp::stop;
+  if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step && !(spoilt() && !last)) {
     const OutputTimer timer(record_.output_checkpoint, simulation_);
     checkpoint();
   }
+}
+
+// A checkpoint that may be the start of a blow-up would take the place of a good one.
+bool Run::spoilt() {
+  if (!simulation_.suspects_blow_up()) return false;
+  if (!warned_of_noise_ && !options_.quiet) {
+    progress_->finish();
+    spdlog::warn(
+        "t = {:.4g}: the velocity of a membrane is more noise than limits.velocity_noise allows; checkpoints wait "
+        "until it is less",
+        simulation_.time());
+  }
+  warned_of_noise_ = true;
+  return true;
 }
 
 // Says once for each vesicle that its mesh has become too coarse for its shape.
@@ -236,40 +252,97 @@ void Run::stop(const SimulationStopped& reason) {
   throw SimulationStopped(message, reason.advice());
 }
 
+void Run::take_step() {
+  const PhaseTimer timer(record_.wall);
+  simulation_.step();
+  ++record_.steps_taken;
+  record_.quality.observe_step(simulation_);
+  log_redistributions();
+  progress_->update(simulation_);
+  record(simulation_.finished());
+}
+
+bool Run::may_go_back() const {
+  const Scene::Limits& limits = simulation_.scene().limits;
+  return limits.on_blowup == OnBlowUp::reduce_step && static_cast<int>(record_.retries.size()) < limits.retries &&
+         std::filesystem::exists(checkpoint_file());
+}
+
+// The checkpoint may be of a run that took shorter steps already.
+void Run::go_back(const SimulationStopped& reason) {
+  RunRecord::Retry retry{simulation_.steps() + 1, simulation_.time(), reason.what(), 0, 0.0};
+  simulation_.set_time_step(read_checkpoint_scene(checkpoint_file()).time.step);
+  restore_checkpoint(checkpoint_file(), simulation_);
+  simulation_.set_time_step(0.5 * simulation_.scene().time.step);
+  retry.from_step = checkpointed_step_ = simulation_.steps();
+  retry.time_step = simulation_.scene().time.step;
+  record_.quality.restore(errors_at_checkpoint_);
+  rewind_files();
+  spdlog::warn("step {} at t = {:.6g} cannot be taken: {}; going on from t = {:.6g} with time.step = {:.6g}",
+               retry.step, retry.time, retry.cause, simulation_.time(), retry.time_step);
+  record_.retries.push_back(std::move(retry));
+}
+
+std::optional<RunStatus> Run::wants_to_end() const {
+  if (const int signal = StopRequest::signal(); signal != 0)
+    return signal == SIGTERM ? RunStatus::terminated : RunStatus::interrupted;
+  const double limit = simulation_.scene().limits.wall_time;
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+  if (limit > 0.0 && spent.count() >= limit) return RunStatus::out_of_time;
+  return std::nullopt;
+}
+
+void Run::report_quality() {
+  if (options_.quiet) return;
+  for (const std::string& warning : record_.quality.warnings()) spdlog::warn("{}", warning);
+}
+
 RunStatus Run::execute() {
   start();
-  const InterruptGuard guard;
+  const StopRequest guard;
   progress_.emplace(options_.quiet, simulation_);
   try {
-    PhaseTimer timer(record_.wall);
+    const PhaseTimer timer(record_.wall);
     record(simulation_.finished());
   } catch (const SimulationStopped& reason) {
     stop(reason);
   }
-  while (!simulation_.finished() && !interrupt_requested) {
+  std::optional<RunStatus> end;
+  while (!simulation_.finished() && !(end = wants_to_end())) {
     try {
-      const PhaseTimer timer(record_.wall);
-      simulation_.step();
-      ++record_.steps_taken;
-      log_redistributions();
-      progress_->update(simulation_);
-      record(simulation_.finished());
+      take_step();
     } catch (const SimulationStopped& reason) {
       progress_->finish();
-      stop(reason);
+      if (!may_go_back()) stop(reason);
+      go_back(reason);
     }
   }
   progress_->finish();
-  const bool completed = simulation_.finished();
-  if (!completed) record(true);
-  finish(completed ? "completed" : "interrupted");
-  return completed ? RunStatus::completed : RunStatus::interrupted;
+  if (!end) end = RunStatus::completed;
+  if (*end != RunStatus::completed) record(true);
+  finish(name_of(*end));
+  report_quality();
+  return *end;
 }
 
 }  // namespace
 
 RunStatus run(Simulation& simulation, const RunOptions& options) {
   return Run(simulation, options).execute();
+}
+
+int exit_code::of(RunStatus status) {
+  switch (status) {
+    case RunStatus::completed:
+      return success;
+    case RunStatus::interrupted:
+      return interrupted;
+    case RunStatus::terminated:
+      return terminated;
+    case RunStatus::out_of_time:
+      return out_of_time;
+  }
+  return internal_error;
 }
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {

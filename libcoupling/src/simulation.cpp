@@ -295,6 +295,10 @@ double Simulation::velocity_noise(std::size_t i) const {
   return vesicles_.at(i)->noise.value();
 }
 
+double Simulation::membrane_speed(std::size_t i) const {
+  return vesicles_.at(i)->noise.greatest_speed();
+}
+
 bool Simulation::suspects_blow_up() const {
   return guard_->suspects();
 }
@@ -323,7 +327,8 @@ bool Simulation::finished() const {
 
 void Simulation::plan_last_step() {
   constexpr double round_off = 1e-6;  // of a step
-  last_step_ = steps() + static_cast<long>(std::max(0.0, std::ceil((scene_.time.end - time()) / scene_.time.step - round_off)));
+  last_step_ =
+      steps() + static_cast<long>(std::max(0.0, std::ceil((scene_.time.end - time()) / scene_.time.step - round_off)));
 }
 
 void Simulation::set_time_step(double dt) {

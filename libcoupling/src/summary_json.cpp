@@ -55,11 +55,13 @@ Json phases_of(const Phases& phases, const RunRecord& record, Value&& value) {
 }
 
 // A state that has blown up may not be measurable any more.
-Json vesicles_of(Simulation& simulation) {
+Json vesicles_of(Simulation& simulation, RunQuality& quality) {
   Json list = Json::array();
   try {
     const std::vector<double> distances = simulation.nearest_distances();
-    for (const auto& diagnostics : simulation.measure())
+    const std::vector<vesicle::Diagnostics> all = simulation.measure();
+    quality.observe(simulation, all);
+    for (const auto& diagnostics : all)
       list.push_back(
           vesicle_of(diagnostics, simulation.redistributions(list.size()), simulation.marker_statistics(list.size())));
     for (std::size_t i = 0; distances.size() > 1 && i < distances.size(); ++i)
@@ -71,10 +73,40 @@ Json vesicles_of(Simulation& simulation) {
   return list;
 }
 
+Json retries_of(const std::vector<RunRecord::Retry>& retries) {
+  Json list = Json::array();
+  for (const auto& retry : retries)
+    list.push_back({{"step", retry.step},
+                    {"time", retry.time},
+                    {"cause", retry.cause},
+                    {"from_step", retry.from_step},
+                    {"time_step", retry.time_step}});
+  return list;
+}
+
+Json errors_of(const RunQuality::Errors& errors) {
+  return {{"area", finite_or_null(errors.area)},
+          {"volume", finite_or_null(errors.volume)},
+          {"local_area", finite_or_null(errors.local_area)},
+          {"surface_divergence", finite_or_null(errors.surface_divergence)},
+          {"spectrum_tail", finite_or_null(errors.spectrum_tail)},
+          {"unresolved_bending", finite_or_null(errors.unresolved_bending)},
+          {"velocity_noise", finite_or_null(errors.velocity_noise)},
+          {"courant_number", finite_or_null(errors.courant_number)},
+          {"divergence", finite_or_null(errors.divergence)}};
+}
+
+Json numbers_of(const RunQuality::SceneNumbers& numbers) {
+  return {{"g", numbers.tension_number},
+          {"stable_g", finite_or_null(numbers.stable_tension_number)},
+          {"convection_step_ratio", numbers.convection_step_ratio},
+          {"grid_error", numbers.grid_error}};
+}
+
 }  // namespace
 
 void write_summary(const std::filesystem::path& directory, const RunOptions& options, Simulation& simulation,
-                   const RunRecord& record) {
+                   RunRecord& record) {
   Json summary;
   summary["format"] = 1;
   summary["status"] = record.status;
@@ -92,7 +124,11 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   summary["wall_seconds"] = record.wall.seconds;
   summary["seconds_per_step"] =
       record.steps_taken > 0 ? Json(record.wall.seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);
-  summary["vesicles"] = vesicles_of(simulation);
+  summary["retries"] = retries_of(record.retries);
+  summary["vesicles"] = vesicles_of(simulation, record.quality);
+  summary["largest_errors"] = errors_of(record.quality.errors());
+  summary["scene_numbers"] = numbers_of(record.quality.scene_numbers());
+  summary["warnings"] = record.quality.warnings();
   summary["max_divergence"] = finite_or_null(simulation.max_divergence());
   const Phases phases = simulation.phases();
   summary["phase_seconds"] = phases_of(phases, record, [](const auto& account) { return account.seconds; });

@@ -26,8 +26,8 @@ wait_for "$work/stopped/diagnostics.csv"
 kill -TERM "$run"
 status=0
 wait "$run" || status=$?
-[[ $status -eq 130 ]] || { echo "FAILED: SIGTERM gave exit code $status, expected 130"; exit 1; }
-grep -q '"status": "interrupted"' "$work/stopped/summary.json"
+[[ $status -eq 143 ]] || { echo "FAILED: SIGTERM gave exit code $status, expected 143"; exit 1; }
+grep -q '"status": "terminated"' "$work/stopped/summary.json"
 "$shear_flow" --restart "$work/stopped/checkpoint.h5" --quiet --threads 1
 grep -q '"status": "completed"' "$work/stopped/summary.json"
 tail -n 1 "$work/whole/diagnostics.csv" >"$work/a"

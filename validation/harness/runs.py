@@ -99,7 +99,7 @@ def execute(run, program, report):
     record["wall_seconds"] = record.get("wall_seconds", 0.0) + time.monotonic() - start
     record["attempts"] = record.get("attempts", 0) + 1
     (folder / "run.json").write_text(json.dumps(record))
-    if process.returncode == 130:
+    if process.returncode in (130, 143):
         raise KeyboardInterrupt
     if process.returncode not in (0, 3):
         raise SystemExit(f"{run.name}: exit code {process.returncode}, see {folder / 'log.txt'}\n" + (folder / "log.txt").read_text()[-600:])

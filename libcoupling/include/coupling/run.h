@@ -17,19 +17,23 @@ struct RunOptions {
   bool quiet = false;                               ///< no progress
 };
 
-enum class RunStatus { completed, interrupted };
+/// How a run has ended: at time.end; by Ctrl-C; by SIGTERM; at limits.wall_time.
+enum class RunStatus { completed, interrupted, terminated, out_of_time };
 
 /// Runs `simulation` to the end of its scene: steps, progress, diagnostics, snapshots, checkpoints, summary. Results
-/// already in the directory are moved aside, or continued when the checkpoint is the directory's own. Ctrl-C and
-/// SIGTERM end the run after the step under way, with a checkpoint.
+/// already in the directory are moved aside, or continued when the checkpoint is the directory's own. Ctrl-C,
+/// SIGTERM and limits.wall_time end the run after the step under way, with a checkpoint. With limits.on_blowup = "reduce_step" a
+/// step that cannot be taken sends the run back to its last checkpoint, from which it goes on with half the step.
 /// \throws SceneError for a checkpoint of another scene; FileError when a file cannot be read or written;
 /// SimulationStopped, with step, time, cause and last checkpoint in its message, when the run cannot go on
 RunStatus run(Simulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.
 namespace exit_code {
-inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, interrupted = 130;
-}
+inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, out_of_time = 5,
+                     interrupted = 130, terminated = 143;
+int of(RunStatus status);
+}  // namespace exit_code
 
 /// Calls `program` and turns what it throws into a message on standard error and an exit code.
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv);

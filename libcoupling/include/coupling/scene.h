@@ -142,10 +142,11 @@ struct Scene {
   } time;
   struct Limits {
     double local_area_error = 0.5;  ///< the run stops beyond it
-    double velocity_noise = 0.5;    ///< and beyond this share of a membrane's velocity that changes from step to step and back
-    double area_error = 1e-3;       ///< relative change of an area that an adaptive step may make
-    double volume_error = 1e-3;     ///< and of a volume
-    double wall_time = 0.0;         ///< seconds after which a run ends with a checkpoint; 0: none
+    double velocity_noise =
+        0.5;  ///< and beyond this share of a membrane's velocity that changes from step to step and back
+    double area_error = 1e-3;    ///< relative change of an area that an adaptive step may make
+    double volume_error = 1e-3;  ///< and of a volume
+    double wall_time = 0.0;      ///< seconds after which a run ends with a checkpoint; 0: none
     OnBlowUp on_blowup = OnBlowUp::stop;
     int retries = 3;  ///< of on_blowup = reduce_step, in a run
   } limits;

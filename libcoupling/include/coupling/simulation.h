@@ -104,7 +104,9 @@ class Simulation {
   const vesicle::VectorField& marker_velocity(std::size_t vesicle) const;
   /// Part of the membrane's velocity that changes from step to step and back: max |U_n - 2 U_(n-1) + U_(n-2)|/4 over the markers.
   double velocity_noise(std::size_t vesicle) const;
-  /// Whether that is above limits.velocity_noise: it may be the start of a blow-up.
+  /// Greatest speed of the membrane in the last step.
+  double membrane_speed(std::size_t vesicle) const;
+  /// Whether the noise of some membrane is above limits.velocity_noise: it may be the start of a blow-up.
   bool suspects_blow_up() const;
   /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
   const fluid::Field<fluid::Cell>* viscosity() const;
