@@ -268,14 +268,14 @@ bool Run::may_go_back() const {
          std::filesystem::exists(checkpoint_file());
 }
 
-// The checkpoint may be of a run that took shorter steps already.
+// The checkpoint may be of longer steps than those that have just failed.
 void Run::go_back(const SimulationStopped& reason) {
-  RunRecord::Retry retry{simulation_.steps() + 1, simulation_.time(), reason.what(), 0, 0.0};
+  RunRecord::Retry retry{simulation_.steps() + 1, simulation_.time(), reason.what(), 0,
+                         0.5 * simulation_.scene().time.step};
   simulation_.set_time_step(read_checkpoint_scene(checkpoint_file()).time.step);
   restore_checkpoint(checkpoint_file(), simulation_);
-  simulation_.set_time_step(0.5 * simulation_.scene().time.step);
+  simulation_.set_time_step(retry.time_step);
   retry.from_step = checkpointed_step_ = simulation_.steps();
-  retry.time_step = simulation_.scene().time.step;
   record_.quality.restore(errors_at_checkpoint_);
   rewind_files();
   spdlog::warn("step {} at t = {:.6g} cannot be taken: {}; going on from t = {:.6g} with time.step = {:.6g}",

@@ -1,4 +1,5 @@
 // What finds a blow-up before it is not finite, and what a run does about it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -95,7 +96,7 @@ TEST(BlowUpGuard, FindsAFluidFasterThanWallsAndMembranes) {
   const std::string found = guard.look_at(velocity, 16);
   const fluid::Vector3 x = velocity.y.position(4, 5, 6);
   EXPECT_NE(found.find("along y is 9.1"), std::string::npos) << found;
-  EXPECT_NE(found.find(std::to_string(x[0]).substr(0, 5)), std::string::npos) << found;
+  EXPECT_NE(found.find(fmt::format("({:.3g}, {:.3g}, {:.3g})", x[0], x[1], x[2])), std::string::npos) << found;
   BlowUpGuard unknown(scene, std::numeric_limits<double>::infinity());
   EXPECT_EQ(unknown.look_at(velocity, 16), "");
 }
@@ -122,7 +123,7 @@ class BlowUpTest : public testing::Test {
 };
 
 // The explicit tension beyond its stability, which no smooth motion is.
-const Overrides unstable = {"membrane.g=12", "output.checkpoint_every=0.05", "output.vesicle_every=0",
+const Overrides unstable = {"membrane.g=8.5", "output.checkpoint_every=0.05", "output.vesicle_every=0",
                             "output.fluid_every=0"};
 
 Overrides with(Overrides base, const Overrides& more) {
@@ -200,7 +201,9 @@ TEST_F(BlowUpTest, GoesBackNoMoreOftenThanItMay) {
   const Overrides keys =
       with(unstable, {"limits.on_blowup=reduce_step", "limits.local_area_error=1e-9", "limits.retries=2"});
   EXPECT_THROW(run_scene(small_scene(keys)), SimulationStopped);
-  EXPECT_EQ(summary()["retries"].size(), 2);
+  const auto retries = summary()["retries"];
+  ASSERT_EQ(retries.size(), 2);
+  EXPECT_EQ(retries[1]["time_step"].get<double>(), 0.5 * retries[0]["time_step"].get<double>());
   EXPECT_EQ(summary()["status"], "stopped");
 }
 
