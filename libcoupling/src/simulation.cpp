@@ -48,8 +48,10 @@ std::string blow_up_advice(const Scene& scene) {
                        convection);
   const double limit = scene.stable_tension_number();
   if (!std::isfinite(limit))
-    return "reduce time.step, or the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too "
-           "deflated";
+    return fmt::format(
+        "reduce time.step, or membrane.sigma0 where g = dt sigma0/(4 h) is above about 50 (here it is {:.3g}); or the "
+        "mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too deflated",
+        scene.tension_number());
   return fmt::format(
       "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: reduce "
       "time.step or membrane.sigma0; if g is well below that, the mesh is too coarse for the shape (more "
