@@ -8,9 +8,13 @@ import subprocess
 from .runs import ROOT
 
 
-def machine():
+def processor():
     model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.processor())
-    return f"{platform.machine()}, {model}, {os.cpu_count()} cores, one thread a run"
+    return f"{platform.machine()}, {model}, {os.cpu_count()} cores"
+
+
+def machine():
+    return f"{processor()}, one thread a run"
 
 
 def revision():
