@@ -11,7 +11,7 @@ import numpy as np
 
 from harness import outputs, spectral
 
-SAMPLES = 24  # latitudes of the points whose distance is taken
+SAMPLES = 20  # latitudes of the points whose distance is taken
 ROUND = 9  # decimals of times that are the same
 
 

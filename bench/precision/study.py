@@ -22,11 +22,14 @@ def evaluate(case, wanted):
             return None
         return errors.combination([(weight, state(keys)) for weight, keys in estimate.parts])
 
-    reference = errors.Reference(combined(case.reference), case.columns, case.since)
-    doubts = {}
-    for other in case.others:
-        if (found := combined(other)) is not None:
-            doubts[other.name] = reference.errors(found)
+    # A run of the reference that stopped takes its estimate away: the next one stands in.
+    estimates = {e.name: (e, combined(e)) for e in (case.reference, *case.others)}
+    estimates = {name: pair for name, pair in estimates.items() if pair[1] is not None}
+    if len(estimates) < 2:
+        raise SystemExit(f"{case.name}: no reference: these runs stopped: {', '.join(sorted(stopped))}")
+    taken, values = next(iter(estimates.values()))
+    reference = errors.Reference(values, case.columns, case.since)
+    doubts = {name: reference.errors(found) for name, (_, found) in estimates.items() if name != taken.name}
     for name, rough, fine in case.doubts:
         if case.label(rough) not in stopped and case.label(fine) not in stopped:
             doubts[f"{name}, on {rough['cells']} cells"] = errors.Reference(state(fine), case.columns, case.since).errors(state(rough))
@@ -43,7 +46,7 @@ def evaluate(case, wanted):
     front = pareto(points)
     course = reference.state["course"]
     return {"columns": case.columns, "since": case.since,
-            "reference": {"name": case.reference.name, "parts": [[w, case.label(keys)] for w, keys in case.reference.parts],
+            "reference": {"name": taken.name, "parts": [[w, case.label(keys)] for w, keys in taken.parts],
                           "own_error": own, "doubts": doubts,
                           "runs": {name: runs.provenance(wanted[name]) for name in reference_runs(case)},
                           "cpu_seconds": sum(runs.provenance(wanted[name])["cpu_seconds"] for name in reference_runs(case)),

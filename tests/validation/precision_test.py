@@ -94,9 +94,13 @@ class Study(unittest.TestCase):
             for quick in (True, False):
                 case = cases.load(name, quick)
                 keys = [k for _, _, k in case.sweeps] + [k for e in (case.reference, *case.others) for _, k in e.parts]
-                named = {}
+                wanted = case.runs()
+                self.assertEqual(len({run.folder() for run in wanted.values()}), len(wanted))
                 for k in keys:
-                    self.assertEqual(named.setdefault(case.label(k), case.run("", k)), case.run("", k), case.label(k))
+                    name_of_it = case.label(k)
+                    self.assertEqual(wanted[name_of_it], case.run(name_of_it, k))
+                for e in (case.reference, *case.others):
+                    self.assertAlmostEqual(sum(w for w, _ in e.parts), 1.0, places=12)
 
 
 if __name__ == "__main__":
