@@ -13,25 +13,28 @@ def tables_of(stored):
     columns = list(stored["columns"])
     names = ["position", *columns, "area", "volume"]
     reference = stored["reference"]
-    levels = [[f"{100 * float(level):g} %", *level_row(stored, level)] for level in stored["levels"]]
+    levels = [row for level in stored["levels"] for row in level_rows(stored, level)]
     doubts = [[name, *(percent(found[key]) for key in names)] for name, found in reference["doubts"].items()]
     rows = [[name, point["family"], point["h"], point["cpu_seconds"], *(percent(point[key]) for key in names), "front" if name in stored["front"] else ""]
             for name, point in sorted(stored["points"].items(), key=lambda item: item[1].get("largest", 9.0)) if "largest" in point]
     rows += [[name, point["family"], point["h"], point["cpu_seconds"], *[""] * len(names), f"stopped at t = {point['run']['time']:.3g}"]
              for name, point in stored["points"].items() if "largest" not in point]
     end = ", ".join(f"{name} {reference['end'][column]:.5g}" for name, column in stored["columns"].items())
-    return [table("The fastest run within an error (the largest of those below)", ["error", "run", "its error", "CPU seconds", ""], levels),
+    return [table("The fastest run within an error (the largest of those below)", ["error", "run", "its error", "CPU seconds"], levels),
             table(f"How far other estimates are from the reference ({reference['name']}; at t = {reference['end']['time']:g}: {end})",
                   ["estimate", *names], doubts),
             table("Runs by error", ["run", "family", "h", "CPU s", *names, ""], rows)]
 
 
-def level_row(stored, level):
-    found = stored["levels"][level]
-    if found is None:
-        least = min((p["largest"], n) for n, p in stored["points"].items() if "largest" in p)
-        return ["none", f"least {percent(least[0])}", "", least[1]]
-    return [found["run"], percent(found["largest"]), found["cpu_seconds"], "" if found["sure"] else "within the doubt of the reference"]
+def level_rows(stored, level):
+    rows = []
+    for how, found in stored["levels"][level].items():
+        meaning = f"{100 * float(level):g} %" + (" with the reference's doubt added" if how == "beyond doubt" else "")
+        if found is None:
+            rows.append([meaning, "none", "", ""])
+        else:
+            rows.append([meaning, found["run"], percent(found["largest"]), found["cpu_seconds"]])
+    return rows
 
 
 def source(stored):
@@ -62,8 +65,8 @@ def draw(stored, path):
             axes.axhline(level, color="0.6", linewidth=0.7, linestyle=":")
     axes.set(xlabel="CPU seconds of the run", ylabel="largest error", ylim=(bottom, None))
     axes.set_title(stored["title"])
-    axes.legend(fontsize=7, ncol=2, loc="upper right")
     side.axis("off")
+    side.legend(*axes.get_legend_handles_labels(), fontsize=7, ncol=2, loc="lower left", borderaxespad=0)
     lines = [f"{number}  {name}\n     {percent(points[name]['largest'])} in {points[name]['cpu_seconds']:.3g} s"
              for number, name in enumerate(stored["front"], 1)]
     side.text(0, 1, "Pareto front (cells across, ...)\n\n" + "\n".join(lines), va="top", fontsize=7, linespacing=1.35)

@@ -38,10 +38,9 @@ def evaluate(case, wanted):
         name = case.label(keys)
         if name in points:
             continue
-        provenance = runs.provenance(wanted[name])
         found = {} if name in stopped else reference.errors(state(keys))
-        points[name] = {"family": family, "knob": knob, "h": case.spacing(keys), "cpu_seconds": provenance["cpu_seconds"]} | found | {
-            "angle_end_deg": None if name in stopped else float(state(keys)["course"]["inclination_angle_deg"][-1]), "run": provenance}
+        points[name] = {"family": family, "knob": knob, "h": case.spacing(keys), "cpu_seconds": runs.cpu_seconds(wanted[name])} | found | {
+            "angle_end_deg": None if name in stopped else float(state(keys)["course"]["inclination_angle_deg"][-1]), "run": runs.provenance(wanted[name])}
     own = {key: max(found[key] for found in doubts.values()) for key in next(iter(doubts.values()))}
     front = pareto(points)
     course = reference.state["course"]
@@ -52,7 +51,7 @@ def evaluate(case, wanted):
                           "cpu_seconds": sum(runs.provenance(wanted[name])["cpu_seconds"] for name in reference_runs(case)),
                           "end": {key: float(course[key][-1]) for key in ("time", *case.columns.values())}},
             "cpu_seconds": sum(point["cpu_seconds"] for point in points.values()),
-            "front": front, "levels": {f"{level:g}": cheapest(points, level, own["largest"]) for level in LEVELS}, "points": points}
+            "front": front, "levels": {f"{level:g}": {"within": cheapest(points, level), "beyond doubt": cheapest(points, level, own["largest"])} for level in LEVELS}, "points": points}
 
 
 def reference_runs(case):
@@ -70,11 +69,10 @@ def pareto(points):
     return front
 
 
-def cheapest(points, level, own):
-    """The fastest run within the level; `sure` if it is so with the reference's own error added."""
-    within = [n for n in points if points[n].get("largest", 1) <= level]
+def cheapest(points, level, doubt=0.0):
+    """The fastest run within the level, whatever the doubt of the reference; None if there is none."""
+    within = [n for n in points if points[n].get("largest", 1) + doubt <= level]
     if not within:
         return None
     name = min(within, key=lambda n: points[n]["cpu_seconds"])
-    return {"run": name, "cpu_seconds": points[name]["cpu_seconds"], "largest": points[name]["largest"],
-            "sure": points[name]["largest"] + own <= level}
+    return {"run": name, "cpu_seconds": points[name]["cpu_seconds"], "largest": points[name]["largest"]}

@@ -83,11 +83,12 @@ class Study(unittest.TestCase):
     def test_the_front_is_what_no_other_run_beats(self):
         self.assertEqual(study.pareto(self.points), ["fast", "middle", "slow and good"])
 
-    def test_the_cheapest_within_a_level_and_whether_the_reference_can_tell(self):
+    def test_the_cheapest_within_a_level_with_the_doubt_of_the_reference_and_without(self):
+        self.assertEqual(study.cheapest(self.points, 1e-2)["run"], "fast")
         self.assertEqual(study.cheapest(self.points, 1e-2, 5e-4)["run"], "fast")
-        self.assertTrue(study.cheapest(self.points, 1e-2, 5e-4)["sure"])
-        self.assertFalse(study.cheapest(self.points, 1e-3, 1e-3)["sure"])
-        self.assertIsNone(study.cheapest(self.points, 1e-5, 0))
+        self.assertEqual(study.cheapest(self.points, 1e-2, 2e-3)["run"], "middle")
+        self.assertEqual(study.cheapest(self.points, 1e-3)["run"], "slow and good")
+        self.assertIsNone(study.cheapest(self.points, 1e-3, 1e-3))
 
     def test_every_run_has_a_name_of_its_own(self):
         for name in cases.BUILDERS:
