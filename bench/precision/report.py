@@ -44,7 +44,7 @@ def source(stored):
 
 
 def draw(stored, path):
-    figure, (axes, side) = drawing.figure(1, 2, figsize=(10, 5.2), width_ratios=[2.2, 1])
+    figure, (axes, side) = drawing.figure(1, 2, figsize=(10, 6.4), width_ratios=[2.2, 1])
     points = {n: p for n, p in stored["points"].items() if "largest" in p}
     families = list(dict.fromkeys(p["family"] for p in points.values()))
     markers = "os^vD<>Ph*Xd"
@@ -67,9 +67,9 @@ def draw(stored, path):
     axes.set_title(stored["title"])
     side.axis("off")
     side.legend(*axes.get_legend_handles_labels(), fontsize=7, ncol=2, loc="lower left", borderaxespad=0)
-    lines = [f"{number}  {name}\n     {percent(points[name]['largest'])} in {points[name]['cpu_seconds']:.3g} s"
+    lines = [f"{number:2d}  {percent(points[name]['largest'])} in {points[name]['cpu_seconds']:.2g} s: {name}"
              for number, name in enumerate(stored["front"], 1)]
-    side.text(0, 1, "Pareto front (cells across, ...)\n\n" + "\n".join(lines), va="top", fontsize=7, linespacing=1.35)
+    side.text(0, 1, "Pareto front (cells across, ...)\n\n" + "\n".join(lines), va="top", fontsize=6.5, linespacing=1.6)
     drawing.save(figure, path)
 
 
