@@ -14,9 +14,7 @@ there are both, into docs/validation.md.
 
 import argparse
 import json
-import os
 import pathlib
-import platform
 import resource
 import signal
 import subprocess
@@ -25,20 +23,11 @@ import time
 
 import cases
 from harness import outputs, runs, tables
+from harness.store import compact, machine, revision, seconds
 
 RESULTS = runs.ROOT / "validation" / "results"
 FIGURES = runs.ROOT / "docs" / "figures"
 PAGE = runs.ROOT / "docs" / "validation.md"
-
-
-def machine():
-    model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.processor())
-    return f"{platform.machine()}, {model}, {os.cpu_count()} cores, one thread a run"
-
-
-def revision():
-    command = ["git", "describe", "--always", "--dirty", "--abbrev=12"]
-    return subprocess.run(command, cwd=runs.ROOT, capture_output=True, text=True).stdout.strip()
 
 
 class Context:
@@ -96,18 +85,6 @@ def carry_out(name, context):
     print(f"   {time.monotonic() - start:.0f} s", flush=True)
 
 
-def compact(result):
-    """A line for each run and each value."""
-    lines = []
-    for key, value in result.items():
-        if isinstance(value, dict):
-            inner = ",\n".join(f"  {json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
-            lines.append(f" {json.dumps(key)}: {{\n{inner}\n }}")
-        else:
-            lines.append(f" {json.dumps(key)}: {json.dumps(value)}")
-    return "{\n" + ",\n".join(lines) + "\n}"
-
-
 def write_docs():
     blocks = {}
     total = {}
@@ -121,12 +98,6 @@ def write_docs():
     rows.append(["all", "", *(seconds(sum(t.get(level, 0) for t in total.values())) for level in ("coarse", "paper"))])
     blocks["times"] = "\n" + tables.markdown(tables.table("", ["case", "what", "coarse", "paper"], rows)) + "\n"
     PAGE.write_text(tables.insert(PAGE.read_text(), blocks))
-
-
-def seconds(value):
-    if value is None:
-        return "not run"
-    return f"{value:.0f} s" if value < 120 else f"{value / 60:.0f} min"
 
 
 def main():

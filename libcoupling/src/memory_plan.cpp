@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "coupling/simulation.h"
 #include "viscosity_plan.h"
@@ -20,17 +21,28 @@ double cell_field_bytes(const Scene& scene) {
   return 8.0 * (n[0] + 2.0) * (n[1] + 2.0) * (n[2] + 2.0);
 }
 
-// Fitted to peak sizes of runs with 32, 64 and 96 latitudes, on 32^3 cells without output; per marker, and per cubed number of
-// latitudes for the tables of Legendre functions. Most are those of the finer grid on which the Laplacian of H is formed.
-double membrane_bytes(const Scene& scene, std::size_t vesicle) {
-  const double latitudes = scene.latitudes(vesicle);
-  const double markers = 2.0 * latitudes * latitudes;
+// Share of what the membrane takes that goes with the grid on which the Laplacian of H is formed: most of it.
+double upsampled_share(const Scene& scene) {
   constexpr std::array upsampling{1.0, 1.5, 2.0, 2.0};
-  const double share = 0.163 + 0.209 * std::pow(upsampling[static_cast<std::size_t>(scene.membrane.upsampling)], 2);
-  double per_marker = 2465.0 * share;
+  return 0.163 + 0.209 * std::pow(upsampling[static_cast<std::size_t>(scene.membrane.upsampling)], 2);
+}
+
+// Fitted to peak sizes of runs with 16 to 128 latitudes, on 32^3 and 40^3 cells without output.
+double membrane_bytes(const Scene& scene, std::size_t vesicle) {
+  const double markers = 2.0 * scene.latitudes(vesicle) * scene.latitudes(vesicle);
+  double per_marker = 2465.0 * upsampled_share(scene);
   if (scene.mesh.redistribute == Redistribute::when_needed) per_marker += 415.0;
   if (scene.follows_shape()) per_marker += 370.0;
-  return per_marker * markers + 88.5 * share * std::pow(latitudes, 3);
+  return per_marker * markers;
+}
+
+// Tables of Legendre functions: membranes of as many latitudes share theirs.
+double table_bytes(const Scene& scene) {
+  std::set<int> sizes;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) sizes.insert(scene.latitudes(i));
+  double bytes = 0.0;
+  for (const int latitudes : sizes) bytes += 88.5 * upsampled_share(scene) * std::pow(latitudes, 3);
+  return bytes;
 }
 
 }  // namespace
@@ -41,6 +53,7 @@ MemoryPlan plan_memory(const Scene& scene) {
   MemoryPlan plan;
   plan.program = program_bytes;
   plan.fluid = viscosity.fluid_bytes + viscosity.indicator_bytes;
+  plan.membranes = table_bytes(scene);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) plan.membranes += membrane_bytes(scene, i);
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
   if (scene.time.adaptive || scene.time.markers == "implicit") plan.steps = (viscosity.is_variable ? 5.0 : 4.0) * field;

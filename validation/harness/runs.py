@@ -149,6 +149,11 @@ def execute_all(runs, program, jobs, show):
             list(pool.map(one, missing))
 
 
+def cpu_seconds(run):
+    """Of all attempts."""
+    return _record(run.folder())["cpu_seconds"]
+
+
 def provenance(run):
     """What is stored of a run beside its values."""
     summary = outputs.summary(run.folder())
@@ -160,6 +165,6 @@ def provenance(run):
         "time": round(summary["time"], 6),
         "steps": summary["steps"],
         "wall_seconds": round(_record(run.folder())["wall_seconds"], 1),
-        "cpu_seconds": round(_record(run.folder())["cpu_seconds"], 1),
+        "cpu_seconds": round(cpu_seconds(run), 1),
         "git_revision": summary["git_revision"],
     }

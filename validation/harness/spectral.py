@@ -3,6 +3,8 @@
 Fields have the shape (latitudes, longitudes, ...), latitudes from north to south at Gauss nodes; coefficients (order, degree, ...).
 """
 
+import functools
+
 import numpy as np
 
 
@@ -39,24 +41,31 @@ def nodes(latitudes):
     return cosine[::-1], weights[::-1]
 
 
+@functools.lru_cache(maxsize=32)
+def table(degrees, latitudes, derivative=False):
+    """P_n^m, or its derivative with respect to theta, at the nodes: (order, node, degree)."""
+    p = legendre(degrees, nodes(latitudes)[0])
+    return np.ascontiguousarray((legendre_theta(p) if derivative else p).transpose(0, 2, 1))
+
+
 def analysis(values):
     latitudes, longitudes = values.shape[:2]
-    cosine, weights = nodes(latitudes)
-    by_order = np.fft.fft(values, axis=1)[:, :latitudes] * (2 * np.pi / longitudes)
-    return np.einsum("mnj,jm...->mn...", legendre(latitudes, cosine) * weights, by_order)
+    flat = values.reshape(latitudes, longitudes, -1)
+    by_order = np.fft.fft(flat, axis=1)[:, :latitudes].transpose(1, 0, 2) * (2 * np.pi / longitudes)
+    weighted = table(latitudes, latitudes).transpose(0, 2, 1) * nodes(latitudes)[1]
+    return (weighted @ by_order).reshape(latitudes, latitudes, *values.shape[2:])
 
 
 def synthesis(coefficients, latitudes, derivative=None):
     """At the nodes of a mesh of so many latitudes; derivative: None, "theta" or "phi"."""
     degrees = coefficients.shape[0]
-    p = legendre(degrees, nodes(latitudes)[0])
-    if derivative == "theta":
-        p = legendre_theta(p)
     order = np.arange(degrees)
     factor = np.where(order == 0, 1.0, 2.0) * (1j * order if derivative == "phi" else 1.0)
-    by_order = np.einsum("mnj,mn...->jm...", p * factor[:, None, None], coefficients)
+    flat = coefficients.reshape(degrees, degrees, -1) * factor[:, None, None]
+    by_order = (table(degrees, latitudes, derivative == "theta") @ flat).transpose(1, 2, 0)
     angle = np.arange(2 * latitudes) * np.pi / latitudes
-    return np.einsum("jm...,mi->ji...", by_order, np.exp(1j * order[:, None] * angle)).real
+    values = (by_order @ np.exp(1j * order[:, None] * angle)).real
+    return np.moveaxis(values, 1, 2).reshape(latitudes, 2 * latitudes, *coefficients.shape[2:])
 
 
 def cut(coefficients, degrees):

@@ -1,0 +1,1 @@
+"""Run time against error: what bench/work_precision.py is made of."""
