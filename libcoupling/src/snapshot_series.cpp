@@ -31,6 +31,7 @@ void append_snapshot(const std::filesystem::path& path, long step, double time,
     file.attribute(group, "step", static_cast<std::int64_t>(step));
     file.attribute(group, "time", time);
     add(file, group);
+    file.close();
   });
 }
 
@@ -41,6 +42,7 @@ void drop_after(const std::filesystem::path& path, long step) {
     std::filesystem::copy_file(path, temporary, std::filesystem::copy_options::overwrite_existing);
     Hdf5File file(temporary, Hdf5File::Mode::append);
     for (auto it = steps.upper_bound(step); it != steps.end(); ++it) file.remove(step_group(it->first));
+    file.close();
   });
 }
 
