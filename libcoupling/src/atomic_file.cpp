@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <vector>
 
 #include "coupling/errors.h"
 #include "descriptor.h"
@@ -39,6 +40,21 @@ bool write_all(int descriptor, std::string_view text) {
     if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
   }
   return true;
+}
+
+void copy_bytes(const std::filesystem::path& source, const std::filesystem::path& target) {
+  const auto fail = [](const std::filesystem::path& file, const char* what) {
+    throw FileError(fmt::format("{}: cannot be {}: {}", file.string(), what, system_message()));
+  };
+  const Descriptor from(open(source.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!from.valid()) fail(source, "read");
+  const Descriptor to(open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  if (!to.valid()) fail(target, "written");
+  std::vector<char> piece(1 << 20);
+  ssize_t size = 0;
+  while ((size = ::read(from, piece.data(), piece.size())) > 0)
+    if (!write_all(to, {piece.data(), static_cast<std::size_t>(size)})) fail(target, "written");
+  if (size < 0) fail(source, "read");
 }
 
 void write_atomically(const std::filesystem::path& target,

@@ -19,6 +19,10 @@ void write_atomically(const std::filesystem::path& target,
 /// The same for text.
 void write_text_atomically(const std::filesystem::path& target, const std::string& text);
 
+/// Makes `target` a copy of `source`.
+/// \throws FileError with the system's reason (which std::filesystem::copy_file of libstdc++ 12 does not give)
+void copy_bytes(const std::filesystem::path& source, const std::filesystem::path& target);
+
 /// Writes the whole text, in more than one piece if the system takes less at once; false, with errno, if it cannot.
 bool write_all(int descriptor, std::string_view text);
 

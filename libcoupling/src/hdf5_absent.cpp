@@ -8,6 +8,8 @@ bool have_hdf5() {
   return false;
 }
 
+void spare_hdf5_at_exit() {}
+
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode) : path_(path) {
   fail(
       "needs HDF5, and this build has none: configure with -DVESIFLOW_WITH_HDF5=ON, or switch off what asks for it "

@@ -111,6 +111,10 @@ bool have_hdf5() {
   return true;
 }
 
+void spare_hdf5_at_exit() {
+  H5dont_atexit();
+}
+
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
   be_quiet();
   const std::string name = path.string();

@@ -58,4 +58,8 @@ class Hdf5File {
 /// Whether this build can write and read HDF5.
 bool have_hdf5();
 
+/// For programs, before anything is opened: HDF5 is not to clean up at exit. Every file is closed by then, but one that could
+/// not be written, which HDF5 keeps and writes again, and 1.10.8 then crashes.
+void spare_hdf5_at_exit();
+
 }  // namespace vesiflow::coupling

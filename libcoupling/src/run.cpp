@@ -298,6 +298,7 @@ int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));
   spdlog::set_pattern("%^%l%$: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
+  spare_hdf5_at_exit();
   try {
     return program(argc, argv);
   } catch (const SceneError& error) {

@@ -39,7 +39,7 @@ void append_snapshot(const std::filesystem::path& path, long step, double time,
                      const std::function<void(Hdf5File&, const std::string&)>& add) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     const bool extend = std::filesystem::exists(path);
-    if (extend) std::filesystem::copy_file(path, temporary, std::filesystem::copy_options::overwrite_existing);
+    if (extend) copy_bytes(path, temporary);
     Hdf5File file(temporary, extend ? Hdf5File::Mode::append : Hdf5File::Mode::create);
     if (!extend) begin(file);
     const std::string group = step_group(step);
@@ -54,7 +54,7 @@ void drop_after(const std::filesystem::path& path, long step) {
   const std::map<long, double> steps = stored_steps(path);
   if (steps.empty() || steps.rbegin()->first <= step) return;
   write_atomically(path, [&](const std::filesystem::path& temporary) {
-    std::filesystem::copy_file(path, temporary, std::filesystem::copy_options::overwrite_existing);
+    copy_bytes(path, temporary);
     Hdf5File file(temporary, Hdf5File::Mode::append);
     for (auto it = steps.upper_bound(step); it != steps.end(); ++it) file.remove(step_group(it->first));
     file.close();
