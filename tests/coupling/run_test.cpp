@@ -397,7 +397,7 @@ TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {
 
 TEST(MemoryWarning, NamesWhatASceneTakesAndWhatThereIs) {
   EXPECT_EQ(memory_warning(small_scene()), "");
-  const std::string warning = memory_warning(small_scene({"domain.cells=4096"}));
+  const std::string warning = memory_warning(small_scene({"domain.cells=2048"}));
   EXPECT_NE(warning.find("this scene takes about"), std::string::npos) << warning;
 }
 
