@@ -4,7 +4,10 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstdlib>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -37,11 +40,14 @@ void be_quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-// What the system said of the call that failed last, such as "No space left on device"; empty if it was not the system.
+// What the system said of the call that failed last, such as "No space left on device"; that of memory is not in HDF5's text.
+// Empty if it was not the system.
 std::string system_error() {
   const auto find = [](unsigned, const H5E_error2_t* entry, void* found) -> herr_t {
     const std::string_view text = entry->desc != nullptr ? entry->desc : "";
     constexpr std::string_view label = "errno = ";
+    if (entry->maj_num == H5E_RESOURCE && text.find("memory allocation failed") != std::string_view::npos)
+      *static_cast<int*>(found) = ENOMEM;
     const std::size_t at = text.find(label);
     if (at == std::string_view::npos) return 0;
     std::from_chars(text.data() + at + label.size(), text.data() + text.size(), *static_cast<int*>(found));
@@ -50,6 +56,14 @@ std::string system_error() {
   int number = 0;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find, &number);
   return number == 0 ? "" : std::generic_category().message(number);
+}
+
+// Opening a file takes HDF5 some megabytes; where there are none, 1.10.8 crashes (H5AC_create).
+void require_memory() {
+  constexpr std::size_t bytes = 4 << 20;
+  void* volatile probe = std::malloc(bytes);
+  if (probe == nullptr) throw std::bad_alloc();
+  std::free(probe);
 }
 
 // The format of HDF5 1.10, whichever newer library writes it: its metadata have checksums.
@@ -117,6 +131,7 @@ void spare_hdf5_at_exit() {
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
   be_quiet();
+  require_memory();
   const std::string name = path.string();
   const Handle access = checksummed_access();
   switch (mode) {
