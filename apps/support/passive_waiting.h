@@ -4,10 +4,14 @@
 
 #include <cstdlib>
 
-/// Threads that wait by spinning cost more than they compute when cores are shared, and the OpenMP runtime reads its wait
-/// policy before main: where the user has not chosen one, starts the program again with a passive one.
+/// Starts the program again with what libraries read from the environment before main, where the user has not chosen it.
+/// OpenMP: threads that wait by spinning cost more than they compute when cores are shared. OpenBLAS: it is kept to one
+/// thread anyway (for the same bits on any machine), but would start one per core with 128 MB of addresses each, and where a
+/// limit of memory (ulimit -v) refuses them, the program would not end.
 inline void wait_passively(char** argv) {
-  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
-  setenv("OMP_WAIT_POLICY", "passive", 1);
+  const bool chosen = std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr;
+  if (chosen && std::getenv("OPENBLAS_NUM_THREADS") != nullptr) return;
+  if (!chosen && setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
+  if (setenv("OPENBLAS_NUM_THREADS", "1", 0) != 0) return;
   execv("/proc/self/exe", argv);  // returns only if it fails; then the run is slower, not wrong
 }

@@ -8,6 +8,8 @@ bool have_hdf5() {
   return false;
 }
 
+void spare_hdf5_at_exit() {}
+
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode) : path_(path) {
   fail(
       "needs HDF5, and this build has none: configure with -DVESIFLOW_WITH_HDF5=ON, or switch off what asks for it "
@@ -18,6 +20,9 @@ void Hdf5File::fail(const std::string& what) const {
   throw FileError(path_.string() + ": " + what);
 }
 
+void Hdf5File::close() {
+  fail("no HDF5");
+}
 void Hdf5File::write(const std::string&, const double*, const Shape&) {
   fail("no HDF5");
 }
@@ -42,7 +47,7 @@ void Hdf5File::attribute(const std::string&, const std::string&, const std::stri
 std::vector<double> Hdf5File::read(const std::string&) const {
   fail("no HDF5");
 }
-Hdf5File::Shape Hdf5File::shape(const std::string&) const {
+std::uint64_t Hdf5File::size(const std::string&) const {
   fail("no HDF5");
 }
 double Hdf5File::read_number(const std::string&, const std::string&) const {

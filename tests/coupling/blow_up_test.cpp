@@ -221,7 +221,7 @@ TEST_F(BlowUpTest, NeedsCheckpointsAndEqualSteps) {
 
 TEST_F(BlowUpTest, ARunThatIsOutOfTimeLeavesACheckpoint) {
   EXPECT_EQ(run_scene(small_scene({"time.end=1000", "limits.wall_time=0.1"})), RunStatus::out_of_time);
-  EXPECT_EQ(exit_code::of(RunStatus::out_of_time), 5);
+  EXPECT_EQ(exit_code::of(RunStatus::out_of_time), 6);
   const auto numbers = summary();
   EXPECT_EQ(numbers["status"], "out of time");
   EXPECT_GT(numbers["steps"], 0);

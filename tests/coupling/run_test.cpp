@@ -12,6 +12,7 @@
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
 #include "coupling/marker_integrator.h"
+#include "coupling/plan.h"
 #include "small_scene.h"
 
 namespace vesiflow::coupling {
@@ -355,6 +356,49 @@ TEST_F(RunTest, RefusesAFolderThatCannotBeWritten) {
   std::ofstream(at("file")) << "in the way";
   EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("file") / "run"), FileError);
   EXPECT_EQ(text_of(at("file")), "in the way");
+}
+
+// A kill within the write of a row leaves a part of it.
+TEST_F(RunTest, RestartRemovesATornRowOfTheTable) {
+  const std::string cadence = "output.diagnostics_every=0.125";
+  run_scene(small_scene({cadence}), at("whole"));
+  run_scene(small_scene({cadence, "time.end=0.25"}), at("parts"));
+  std::ofstream(at("parts") / "diagnostics.csv", std::ios::app) << "36,0.3";
+  run_scene(small_scene({cadence}), at("parts"), at("parts") / "checkpoint.h5");
+  EXPECT_EQ(text_of(at("whole") / "diagnostics.csv"), text_of(at("parts") / "diagnostics.csv"));
+}
+
+// The list of snapshots for ParaView never names one that is not in the file: a restart takes both back, though its end writes none.
+TEST_F(RunTest, RestartDropsSnapshotsFromTheListToo) {
+  run_scene(small_scene({"time.end=0.25"}), at("run"));
+  fs::create_directories(at("kept"));
+  fs::copy_file(at("run") / "checkpoint.h5", at("kept") / "checkpoint.h5");
+  const std::string list = text_of(at("run") / "vesicle.xdmf"), fluid_list = text_of(at("run") / "fluid.xdmf");
+  run_scene(small_scene(), at("run"), at("run") / "checkpoint.h5");
+  EXPECT_NE(text_of(at("run") / "vesicle.xdmf"), list);
+  fs::copy_file(at("kept") / "checkpoint.h5", at("run") / "checkpoint.h5", fs::copy_options::overwrite_existing);
+  run_scene(small_scene({"time.end=0.25"}), at("run"), at("run") / "checkpoint.h5");
+  EXPECT_EQ(text_of(at("run") / "vesicle.xdmf"), list);
+  EXPECT_EQ(text_of(at("run") / "fluid.xdmf"), fluid_list);
+}
+
+TEST_F(RunTest, LeftoversOfAKillAreRemoved) {
+  fs::create_directories(at("run"));
+  std::ofstream(at("run") / "vesicle.h5.part") << "half a file";
+  run_scene(small_scene({"time.end=0.05"}), at("run"));
+  EXPECT_FALSE(fs::exists(at("run") / "vesicle.h5.part"));
+}
+
+TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {
+  char name[] = "program";
+  char* arguments[] = {name, nullptr};
+  EXPECT_EQ(exit_code_of([](int, char**) -> int { throw std::bad_alloc(); }, 1, arguments), exit_code::out_of_memory);
+}
+
+TEST(MemoryWarning, NamesWhatASceneTakesAndWhatThereIs) {
+  EXPECT_EQ(memory_warning(small_scene()), "");
+  const std::string warning = memory_warning(small_scene({"domain.cells=2048"}));
+  EXPECT_NE(warning.find("this scene takes about"), std::string::npos) << warning;
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ RunStatus run(Simulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.
 namespace exit_code {
-inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, out_of_time = 5,
-                     interrupted = 130, terminated = 143;
+inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, out_of_memory = 5,
+                     out_of_time = 6, interrupted = 130, terminated = 143;
 int of(RunStatus status);
 }  // namespace exit_code
 
