@@ -9,12 +9,19 @@ function(vesiflow_compile_options target)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     -fno-math-errno -fno-trapping-math
     $<$<CONFIG:Release>:-O3>
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas>  # GCC ivdep
     $<$<BOOL:${VESIFLOW_NATIVE}>:-march=native>
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)
   if(VESIFLOW_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+  if(VESIFLOW_BUILD_FUZZ)
+    # A number that does not fit the integer it is cast to is no part of "undefined", but is undefined.
+    set(sanitizers address,undefined,float-cast-overflow)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,${sanitizers} -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${sanitizers})
   endif()
   if(VESIFLOW_COVERAGE)
     target_link_options(${target} PUBLIC --coverage)

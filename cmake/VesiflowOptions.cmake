@@ -11,6 +11,7 @@ option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
 option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
 option(VESIFLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(VESIFLOW_BUILD_BENCH "Build the benchmarks" OFF)
+option(VESIFLOW_BUILD_FUZZ "Build the fuzz targets, and all else with sanitizers and coverage counters (clang only)" OFF)
 
 if("coupling" IN_LIST VESIFLOW_LIBRARIES)
   foreach(needed vesicle fluid)
@@ -18,6 +19,10 @@ if("coupling" IN_LIST VESIFLOW_LIBRARIES)
       message(FATAL_ERROR "VESIFLOW_LIBRARIES: coupling needs ${needed}; add it to the list")
     endif()
   endforeach()
+endif()
+
+if(VESIFLOW_BUILD_FUZZ AND NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  message(FATAL_ERROR "VESIFLOW_BUILD_FUZZ needs clang's libFuzzer: configure with --preset fuzz, or with -DCMAKE_CXX_COMPILER=clang++")
 endif()
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

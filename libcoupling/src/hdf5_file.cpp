@@ -71,9 +71,22 @@ bool write_attribute(hid_t file, const std::string& group, const std::string& na
   return attribute.valid() && H5Awrite(attribute, type, value) >= 0;
 }
 
+bool is_scalar(hid_t attribute) {
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  return space.valid() && H5Sget_simple_extent_npoints(space) == 1;
+}
+
+// HDF5 writes as many values as the attribute has, wherever they end.
 bool read_attribute(hid_t file, const std::string& group, const std::string& name, hid_t type, void* value) {
   const Handle attribute(H5Aopen_by_name(file, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  return attribute.valid() && H5Aread(attribute, type, value) >= 0;
+  return attribute.valid() && is_scalar(attribute) && H5Aread(attribute, type, value) >= 0;
+}
+
+// A file that claims to hold more than this is damaged: what it holds is not packed.
+std::uint64_t largest_size(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
+  return unknown ? 0 : bytes;
 }
 
 }  // namespace
@@ -143,14 +156,20 @@ Hdf5File::Shape Hdf5File::shape(const std::string& name) const {
   const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!set.valid()) fail(name + " is missing");
   const Handle space(H5Dget_space(set), H5Sclose);
-  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+  const int dimensions = H5Sget_simple_extent_ndims(space);
+  if (dimensions < 0) fail(name + " cannot be read: the file is damaged");
+  std::vector<hsize_t> extent(static_cast<std::size_t>(dimensions));
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);
   return {extent.begin(), extent.end()};
 }
 
 std::vector<double> Hdf5File::read(const std::string& name) const {
+  const std::uint64_t largest = largest_size(path_);
   std::uint64_t size = 1;
-  for (const std::uint64_t n : shape(name)) size *= n;
+  for (const std::uint64_t n : shape(name)) {
+    if (n > 0 && size > largest / n) fail(name + " claims to be larger than the file: the file is damaged");
+    size *= n;
+  }
   std::vector<double> values(size);
   const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
@@ -160,13 +179,13 @@ std::vector<double> Hdf5File::read(const std::string& name) const {
 
 double Hdf5File::read_number(const std::string& group, const std::string& name) const {
   double value = 0.0;
-  if (!read_attribute(file_, group, name, H5T_NATIVE_DOUBLE, &value)) fail(name + " is missing");
+  if (!read_attribute(file_, group, name, H5T_NATIVE_DOUBLE, &value)) fail(name + " is missing or no number");
   return value;
 }
 
 std::int64_t Hdf5File::read_integer(const std::string& group, const std::string& name) const {
   std::int64_t value = 0;
-  if (!read_attribute(file_, group, name, H5T_NATIVE_INT64, &value)) fail(name + " is missing");
+  if (!read_attribute(file_, group, name, H5T_NATIVE_INT64, &value)) fail(name + " is missing or no number");
   return value;
 }
 
@@ -174,10 +193,13 @@ std::string Hdf5File::read_text(const std::string& group, const std::string& nam
   const Handle attribute(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!attribute.valid()) fail(name + " is missing");
   const Handle type(H5Aget_type(attribute), H5Tclose);
-  std::string value(H5Tget_size(type), '\0');
-  if (value.empty() || H5Aread(attribute, type, value.data()) < 0) fail(name + " cannot be read");
-  value.resize(value.find('\0'));
-  return value;
+  const bool is_text = is_scalar(attribute) && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
+  if (!is_text) fail(name + " is no text");
+  const std::size_t size = H5Tget_size(type);
+  if (size > largest_size(path_)) fail(name + " claims to be larger than the file: the file is damaged");
+  std::string value(size, '\0');
+  if (H5Aread(attribute, type, value.data()) < 0) fail(name + " cannot be read");
+  return value.substr(0, value.find('\0'));
 }
 
 bool Hdf5File::exists(const std::string& name) const {
