@@ -14,14 +14,10 @@ function(vesiflow_compile_options target)
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)
   if(VESIFLOW_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined)
-    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
-  endif()
-  if(VESIFLOW_BUILD_FUZZ)
-    # A number that does not fit the integer it is cast to is no part of "undefined", but is undefined.
-    set(sanitizers address,undefined,float-cast-overflow)
-    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,${sanitizers} -fno-sanitize-recover=all)
-    target_link_options(${target} PUBLIC -fsanitize=${sanitizers})
+    # libFuzzer learns from counters that go with the sanitizers.
+    target_compile_options(${target} PRIVATE
+      -fsanitize=$<$<BOOL:${VESIFLOW_BUILD_FUZZ}>:fuzzer-no-link,>${VESIFLOW_SANITIZE} -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${VESIFLOW_SANITIZE})
   endif()
   if(VESIFLOW_COVERAGE)
     target_link_options(${target} PUBLIC --coverage)

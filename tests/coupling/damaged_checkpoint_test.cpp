@@ -14,6 +14,7 @@
 #include "coupling/errors.h"
 #include "hdf5_file.h"
 #include "small_scene.h"
+#include "snapshot_series.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -145,6 +146,16 @@ TEST_F(DamagedCheckpoint, AHistoryWithCountsThatAreNone) {
   EXPECT_EQ(complaint(), "none");
   set_first("/vesicle_0/motion_history", -1.0);
   EXPECT_NE(complaint().find("shape_following: a history of a step of -1"), std::string::npos) << complaint();
+}
+
+TEST_F(DamagedCheckpoint, OrSnapshotsWithAStepThatIsNone) {
+  Hdf5File(path_, Hdf5File::Mode::create).attribute("/steps/last", "time", 1.0);
+  try {
+    stored_steps(path_);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("/steps/last is no step"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
