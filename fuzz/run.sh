@@ -19,10 +19,10 @@ elif [[ ${1:-} == -* ]]; then
   exit 2
 fi
 targets=("$@")
-[[ ${#targets[@]} -gt 0 ]] || targets=(coefficients mesh scene checkpoint_bytes checkpoint_contents)
+[[ ${#targets[@]} -gt 0 ]] || targets=(coefficients mesh scene state checkpoint_bytes checkpoint_contents)
 
 # Executions of a short run: some seconds each.
-declare -A executions=([coefficients]=20000 [mesh]=20000 [scene]=2000 [checkpoint_bytes]=1000 [checkpoint_contents]=500)
+declare -A executions=([coefficients]=20000 [mesh]=20000 [scene]=2000 [state]=500 [checkpoint_bytes]=1000 [checkpoint_contents]=500)
 
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"

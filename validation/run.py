@@ -111,7 +111,7 @@ def compact(result):
 def write_docs():
     blocks = {}
     total = {}
-    for file in sorted(RESULTS.glob("*.json")):  # coarse before paper, so that the finer one stays
+    for file in sorted(RESULTS.glob("*.*.json")):  # coarse before paper, so that the finer one stays
         stored = json.loads(file.read_text())
         case, level = file.name.split(".")[:2]
         blocks[case] = "\n" + "\n\n".join(tables.markdown(t) for t in stored["values"]["tables"])

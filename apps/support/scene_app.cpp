@@ -81,6 +81,7 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
     return exit_code::success;
   }
 
+  if (const std::string warning = memory_warning(scene); !warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
   Simulation simulation(scene);
   RunOptions options;
   options.program = app.name;

@@ -4,33 +4,50 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <fstream>
+#include <cerrno>
 #include <system_error>
 
 #include "coupling/errors.h"
+#include "descriptor.h"
 
 namespace vesiflow::coupling {
 namespace {
 
+std::string system_message() {
+  return std::generic_category().message(errno);
+}
+
 // Without it the rename can reach the disk before the data does, and a power cut leaves an empty file.
-bool flush_to_disk(const std::filesystem::path& file) {
-  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool flushed = fsync(descriptor) == 0;
-  close(descriptor);
-  return flushed;
+void flush_to_disk(const std::filesystem::path& file) {
+  const Descriptor descriptor(open(file.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!descriptor.valid() || fsync(descriptor) != 0)
+    throw FileError(fmt::format("{}: cannot be written to disk: {}", file.string(), system_message()));
 }
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& target,
-                      const std::function<void(const std::filesystem::path&)>& write) {
+std::filesystem::path temporary_of(const std::filesystem::path& target) {
   std::filesystem::path temporary = target;
   temporary += ".part";
+  return temporary;
+}
+
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno != EINTR) return false;
+    if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+void write_atomically(const std::filesystem::path& target,
+                      const std::function<void(const std::filesystem::path&)>& write) {
+  const std::filesystem::path temporary = temporary_of(target);
   std::error_code error;
   try {
     write(temporary);
-    if (!flush_to_disk(temporary)) throw FileError(fmt::format("{}: cannot be written to disk", temporary.string()));
+    flush_to_disk(temporary);
     std::filesystem::rename(temporary, target);
   } catch (const std::filesystem::filesystem_error& failure) {
     std::filesystem::remove(temporary, error);
@@ -43,9 +60,9 @@ void write_atomically(const std::filesystem::path& target,
 
 void write_text_atomically(const std::filesystem::path& target, const std::string& text) {
   write_atomically(target, [&](const std::filesystem::path& temporary) {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text << std::flush;
-    if (!stream) throw FileError(fmt::format("{}: cannot be written: disk full, or no permission", target.string()));
+    const Descriptor descriptor(open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    if (!descriptor.valid() || !write_all(descriptor, text))
+      throw FileError(fmt::format("{}: cannot be written: {}", target.string(), system_message()));
   });
 }
 

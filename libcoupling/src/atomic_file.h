@@ -3,10 +3,14 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace vesiflow::coupling {
 
-/// Lets `write` fill a file of a temporary name beside `target`, then renames it over `target`: whoever reads sees
+/// Name under which a file is written before it is complete.
+std::filesystem::path temporary_of(const std::filesystem::path& target);
+
+/// Lets `write` fill a file of that name beside `target`, then renames it over `target`: whoever reads sees
 /// the old file or the new one, whole. The temporary file is removed when `write` throws.
 /// \throws FileError when the file cannot be written
 void write_atomically(const std::filesystem::path& target,
@@ -14,5 +18,8 @@ void write_atomically(const std::filesystem::path& target,
 
 /// The same for text.
 void write_text_atomically(const std::filesystem::path& target, const std::string& text);
+
+/// Writes the whole text, in more than one piece if the system takes less at once; false, with errno, if it cannot.
+bool write_all(int descriptor, std::string_view text);
 
 }  // namespace vesiflow::coupling

@@ -9,11 +9,12 @@
 #include "hdf5_file.h"
 #include "scene_file.h"
 #include "scene_keys.h"
+#include "state_checksum.h"
 
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 template <class Centring>
 void write_field(Hdf5File& file, const std::string& name, const fluid::Field<Centring>& field) {
@@ -34,11 +35,9 @@ void write_array(Hdf5File& file, const std::string& name, const double* values, 
 
 void read_into(const Hdf5File& file, const std::string& name, double* values, std::size_t size,
                const std::filesystem::path& path) {
-  const std::vector<double> read = file.read(name);
-  if (read.size() != size)
-    throw FileError(fmt::format("{}: {} has {} values, expected {}: the checkpoint is damaged", path.string(), name,
-                                read.size(), size));
-  std::ranges::copy(read, values);
+  if (const std::uint64_t stored = file.size(name); stored != size)
+    throw FileError(fmt::format("{}: {} has {} values, expected {}", path.string(), name, stored, size));
+  std::ranges::copy(file.read(name), values);
 }
 
 template <class Centring>
@@ -154,8 +153,8 @@ vesicle::Coefficients read_surface(const Hdf5File& file, const std::string& name
   while (std::size_t(degrees) * std::size_t(degrees + 1) * 3 < values.size()) ++degrees;
   vesicle::Coefficients surface(degrees, 3);
   if (std::size_t(degrees) * std::size_t(degrees + 1) * 3 != values.size())
-    throw FileError(fmt::format("{}: {} has {} values, no number of degrees has that many: the checkpoint is damaged",
-                                path.string(), name, values.size()));
+    throw FileError(
+        fmt::format("{}: {} has {} values, no number of degrees has that many", path.string(), name, values.size()));
   const double* value = values.data();
   for (int n = 0; n < degrees; ++n)
     for (int m = 0; m <= n; ++m)
@@ -163,13 +162,29 @@ vesicle::Coefficients read_surface(const Hdf5File& file, const std::string& name
   return surface;
 }
 
+void require_checksum(const Hdf5File& file, const std::string& name, std::int64_t sum, const std::string& what,
+                      const std::filesystem::path& path) {
+  if (file.read_integer("/", name) != sum)
+    throw FileError(fmt::format("{}: {} is not what was written: blocks of the file are lost, or were exchanged",
+                                path.string(), what));
+}
+
+void require_format(const Hdf5File& file, const std::filesystem::path& path) {
+  const std::int64_t format = file.read_integer("/", "format");
+  if (format != format_version)
+    throw SceneError(
+        fmt::format("{}: checkpoint of format {}, this version reads format {}: finish the run with the version of the "
+                    "program that wrote it, which summary.json names, or start anew from its scene.toml",
+                    path.string(), format, format_version));
+}
+
 Scene scene_of(const Hdf5File& file, const std::filesystem::path& path, const Overrides& overrides = {}) {
-  if (file.read_integer("/", "format") != format_version)
-    throw FileError(fmt::format("{}: checkpoint of format {}, this version reads format {}", path.string(),
-                                file.read_integer("/", "format"), format_version));
-  return parse_scene(file.read_text("/", "scene"), path.string(), overrides, [&](Scene& scene) {
+  require_format(file, path);
+  const std::string text = file.read_text("/", "scene");
+  return parse_scene(text, path.string(), overrides, [&](Scene& scene) {
     for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
       if (file.exists(surface_name(i))) scene.vesicles[i].surface = read_surface(file, surface_name(i), path);
+    require_checksum(file, "scene_checksum", checksum_of(scene, text), "the scene", path);
   });
 }
 
@@ -179,7 +194,9 @@ auto as_input(const Read& read) {
   try {
     return read();
   } catch (const FileError& error) {
-    throw SceneError(error.what());
+    throw SceneError(fmt::format(
+        "{}\n  this checkpoint cannot be used: take a copy of it or an earlier one, or start anew from the scene",
+        error.what()));
   }
 }
 
@@ -198,6 +215,7 @@ SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::
     const Eigen::Index latitudes = scene.latitudes(i);
     state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
   }
+  require_checksum(file, "state_checksum", checksum_of(state), "the state", path);
   return state;
 }
 
@@ -208,7 +226,11 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     Hdf5File file(temporary, Hdf5File::Mode::create);
     file.attribute("/", "format", format_version);
-    file.attribute("/", "scene", to_toml(simulation.scene()));
+    const Scene& scene = simulation.scene();
+    const std::string text = to_toml(scene);
+    file.attribute("/", "scene", text);
+    file.attribute("/", "scene_checksum", checksum_of(scene, text));
+    file.attribute("/", "state_checksum", checksum_of(state));
     file.attribute("/", "time", state.clock.time);
     file.attribute("/", "previous_time", state.clock.previous_time);
     file.attribute("/", "time_step", state.clock.time_step);
@@ -221,8 +243,9 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
                   static_cast<Eigen::Index>(state.step_control.size()));
     for (std::size_t i = 0; i < state.vesicles.size(); ++i)
       write_vesicle(file, fmt::format("/vesicle_{}", i), state.vesicles[i]);
-    for (std::size_t i = 0; i < simulation.scene().vesicles.size(); ++i)
-      if (const auto& surface = simulation.scene().vesicles[i].surface) write_surface(file, surface_name(i), *surface);
+    for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+      if (const auto& surface = scene.vesicles[i].surface) write_surface(file, surface_name(i), *surface);
+    file.close();
   });
 }
 

@@ -63,9 +63,13 @@ std::string xdmf(const std::map<long, double>& steps, const fluid::Grid& grid) {
 FluidSnapshots::FluidSnapshots(std::filesystem::path directory)
     : directory_(std::move(directory)), steps_(stored_steps(directory_ / "fluid.h5")) {}
 
-void FluidSnapshots::rewind(long step) {
-  drop_after(directory_ / "fluid.h5", step);
-  steps_.erase(steps_.upper_bound(step), steps_.end());
+// The list first: it never names a snapshot that is not there.
+void FluidSnapshots::rewind(const Simulation& simulation) {
+  const auto later = steps_.upper_bound(simulation.steps());
+  if (later == steps_.end()) return;
+  steps_.erase(later, steps_.end());
+  write_text_atomically(directory_ / "fluid.xdmf", xdmf(steps_, simulation.fluid().grid()));
+  drop_after(directory_ / "fluid.h5", simulation.steps());
 }
 
 void FluidSnapshots::write(const Simulation& simulation) {

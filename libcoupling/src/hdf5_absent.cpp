@@ -18,6 +18,9 @@ void Hdf5File::fail(const std::string& what) const {
   throw FileError(path_.string() + ": " + what);
 }
 
+void Hdf5File::close() {
+  fail("no HDF5");
+}
 void Hdf5File::write(const std::string&, const double*, const Shape&) {
   fail("no HDF5");
 }
@@ -42,7 +45,7 @@ void Hdf5File::attribute(const std::string&, const std::string&, const std::stri
 std::vector<double> Hdf5File::read(const std::string&) const {
   fail("no HDF5");
 }
-Hdf5File::Shape Hdf5File::shape(const std::string&) const {
+std::uint64_t Hdf5File::size(const std::string&) const {
   fail("no HDF5");
 }
 double Hdf5File::read_number(const std::string&, const std::string&) const {

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "coupling/errors.h"
@@ -17,6 +21,7 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) close_(id_);
   }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
   operator hid_t() const { return id_; }
@@ -27,10 +32,38 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-hid_t creating_groups() {
-  const hid_t list = H5Pcreate(H5P_LINK_CREATE);
-  H5Pset_create_intermediate_group(list, 1);
-  return list;
+// Failures become exceptions, not print-outs.
+void be_quiet() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+// What the system said of the call that failed last, such as "No space left on device"; empty if it was not the system.
+std::string system_error() {
+  const auto find = [](unsigned, const H5E_error2_t* entry, void* found) -> herr_t {
+    const std::string_view text = entry->desc != nullptr ? entry->desc : "";
+    constexpr std::string_view label = "errno = ";
+    const std::size_t at = text.find(label);
+    if (at == std::string_view::npos) return 0;
+    std::from_chars(text.data() + at + label.size(), text.data() + text.size(), *static_cast<int*>(found));
+    return 1;
+  };
+  int number = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find, &number);
+  return number == 0 ? "" : std::generic_category().message(number);
+}
+
+// The format of HDF5 1.10, whichever newer library writes it: its metadata have checksums.
+Handle checksummed_access() {
+  const hid_t list = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(list, H5F_LIBVER_V110, H5F_LIBVER_V110);
+  return Handle(list, H5Pclose);
+}
+
+// Without the time of writing, the same results are the same file.
+Handle timeless(hid_t kind) {
+  const hid_t list = H5Pcreate(kind);
+  H5Pset_obj_track_times(list, false);
+  return Handle(list, H5Pclose);
 }
 
 hid_t simple_space(const Hdf5File::Shape& shape) {
@@ -38,55 +71,38 @@ hid_t simple_space(const Hdf5File::Shape& shape) {
   return H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr);
 }
 
-// Without the time of writing, the same results are the same file.
-hid_t timeless() {
-  const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-  H5Pset_obj_track_times(list, false);
-  return list;
+// Slabs of whole rows, of about equal size and no more than the cache of a data set holds.
+std::vector<hsize_t> chunk_of(const Hdf5File::Shape& shape, std::uint64_t bytes) {
+  constexpr std::uint64_t cache_bytes = 1 << 20;
+  std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  const std::uint64_t slabs = std::min<std::uint64_t>(shape[0], (bytes + cache_bytes - 1) / cache_bytes);
+  chunk[0] = (shape[0] + slabs - 1) / slabs;
+  return chunk;
 }
 
-bool write_dataset(hid_t file, const std::string& name, hid_t type, const void* values, const Hdf5File::Shape& shape) {
-  const Handle space(simple_space(shape), H5Sclose);
-  const Handle links(creating_groups(), H5Pclose);
-  const Handle creation(timeless(), H5Pclose);
-  const Handle set(H5Dcreate2(file, name.c_str(), type, space, links, creation, H5P_DEFAULT), H5Dclose);
-  return set.valid() && H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
-}
-
-// The object of that name, made as a group if there is none.
-Handle object(hid_t file, const std::string& name) {
-  if (name != "/" && H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0) {
-    const Handle links(creating_groups(), H5Pclose);
-    const Handle group(H5Gcreate2(file, name.c_str(), links, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+// Only data in chunks have checksums.
+Handle checksummed(const Hdf5File::Shape& shape, hid_t type) {
+  Handle creation = timeless(H5P_DATASET_CREATE);
+  std::uint64_t bytes = H5Tget_size(type);
+  for (const std::uint64_t n : shape) bytes *= n;
+  if (bytes > 0) {
+    const std::vector<hsize_t> chunk = chunk_of(shape, bytes);
+    H5Pset_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+    H5Pset_fletcher32(creation);
   }
-  return Handle(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
+  return creation;
 }
 
-bool write_attribute(hid_t file, const std::string& group, const std::string& name, hid_t type, hid_t space,
-                     const void* value) {
-  const Handle target = object(file, group);
-  if (!target.valid()) return false;
-  if (H5Aexists(target, name.c_str()) > 0) H5Adelete(target, name.c_str());
-  const Handle attribute(H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  return attribute.valid() && H5Awrite(attribute, type, value) >= 0;
-}
-
-bool is_scalar(hid_t attribute) {
-  const Handle space(H5Aget_space(attribute), H5Sclose);
-  return space.valid() && H5Sget_simple_extent_npoints(space) == 1;
-}
-
-// HDF5 writes as many values as the attribute has, wherever they end.
-bool read_attribute(hid_t file, const std::string& group, const std::string& name, hid_t type, void* value) {
-  const Handle attribute(H5Aopen_by_name(file, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  return attribute.valid() && is_scalar(attribute) && H5Aread(attribute, type, value) >= 0;
-}
-
-// A file that claims to hold more than this is damaged: what it holds is not packed.
-std::uint64_t largest_size(const std::filesystem::path& path) {
-  std::error_code unknown;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, unknown);
-  return unknown ? 0 : bytes;
+// Makes the groups above an object.
+bool make_parents(hid_t file, const std::string& name) {
+  for (std::size_t end = name.find('/', 1); end != std::string::npos; end = name.find('/', end + 1)) {
+    const std::string group = name.substr(0, end);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+    const Handle creation = timeless(H5P_GROUP_CREATE);
+    const Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+    if (!made.valid()) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -96,114 +112,143 @@ bool have_hdf5() {
 }
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures become exceptions, not print-outs
+  be_quiet();
   const std::string name = path.string();
+  const Handle access = checksummed_access();
   switch (mode) {
-    case Mode::create:
-      file_ = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    case Mode::create: {
+      const Handle creation = timeless(H5P_FILE_CREATE);
+      file_ = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
       break;
+    }
     case Mode::append:
-      file_ = H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+      file_ = H5Fopen(name.c_str(), H5F_ACC_RDWR, access);
       break;
     case Mode::read:
-      file_ = H5Fopen(name.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+      file_ = H5Fopen(name.c_str(), H5F_ACC_RDONLY, access);
       break;
   }
-  if (file_ < 0) {
-    const char* what = mode == Mode::create ? "cannot be created" : "cannot be read: missing, truncated or not HDF5";
-    fail(what);
-  }
+  if (file_ < 0) fail(mode == Mode::create ? "cannot be created" : "cannot be read: missing, truncated or not HDF5");
 }
 
 Hdf5File::~Hdf5File() {
-  H5Fclose(file_);
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5File::close() {
+  if (H5Fflush(file_, H5F_SCOPE_GLOBAL) < 0) fail("cannot be written");
+  if (H5Fclose(std::exchange(file_, -1)) < 0) fail("cannot be written");
 }
 
 void Hdf5File::fail(const std::string& what) const {
-  throw FileError(fmt::format("{}: {}", path_.string(), what));
+  const std::string cause = system_error();
+  throw FileError(fmt::format("{}: {}{}{}", path_.string(), what, cause.empty() ? "" : ": ", cause));
+}
+
+void Hdf5File::write_values(const std::string& name, std::int64_t type, const void* values, const Shape& shape) {
+  if (!make_parents(file_, name)) fail(name + " cannot be written");
+  const Handle space(simple_space(shape), H5Sclose);
+  const Handle creation = checksummed(shape, type);
+  const hid_t set = H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  if (set < 0) fail(name + " cannot be written");
+  const Handle closing(set, H5Dclose);
+  // What is still in memory is written here, where its failure can be told.
+  if (H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0 || H5Dflush(set) < 0)
+    fail(name + " cannot be written");
 }
 
 void Hdf5File::write(const std::string& name, const double* values, const Shape& shape) {
-  if (!write_dataset(file_, name, H5T_NATIVE_DOUBLE, values, shape)) fail(name + " cannot be written");
+  write_values(name, H5T_NATIVE_DOUBLE, values, shape);
 }
 void Hdf5File::write(const std::string& name, const float* values, const Shape& shape) {
-  if (!write_dataset(file_, name, H5T_NATIVE_FLOAT, values, shape)) fail(name + " cannot be written");
+  write_values(name, H5T_NATIVE_FLOAT, values, shape);
 }
 void Hdf5File::write(const std::string& name, const std::int32_t* values, const Shape& shape) {
-  if (!write_dataset(file_, name, H5T_NATIVE_INT32, values, shape)) fail(name + " cannot be written");
+  write_values(name, H5T_NATIVE_INT32, values, shape);
+}
+
+void Hdf5File::write_attribute(const std::string& group, const std::string& name, std::int64_t type, const Shape& shape,
+                               const void* value) {
+  if (!make_parents(file_, group + "/")) fail(name + " cannot be written");
+  const Handle target(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
+  const Handle space(shape.empty() ? H5Screate(H5S_SCALAR) : simple_space(shape), H5Sclose);
+  const Handle attribute(H5Acreate2(target, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid() || H5Awrite(attribute, type, value) < 0) fail(name + " cannot be written");
 }
 
 void Hdf5File::attribute(const std::string& group, const std::string& name, double value) {
-  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
-  if (!write_attribute(file_, group, name, H5T_NATIVE_DOUBLE, scalar, &value)) fail(name + " cannot be written");
+  write_attribute(group, name, H5T_NATIVE_DOUBLE, {}, &value);
 }
 void Hdf5File::attribute(const std::string& group, const std::string& name, std::int64_t value) {
-  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
-  if (!write_attribute(file_, group, name, H5T_NATIVE_INT64, scalar, &value)) fail(name + " cannot be written");
+  write_attribute(group, name, H5T_NATIVE_INT64, {}, &value);
 }
 void Hdf5File::attribute(const std::string& group, const std::string& name, const std::vector<double>& values) {
-  const Handle space(simple_space({values.size()}), H5Sclose);
-  if (!write_attribute(file_, group, name, H5T_NATIVE_DOUBLE, space, values.data())) fail(name + " cannot be written");
+  write_attribute(group, name, H5T_NATIVE_DOUBLE, {values.size()}, values.data());
 }
 void Hdf5File::attribute(const std::string& group, const std::string& name, const std::string& value) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, value.size() + 1);
-  const Handle scalar(H5Screate(H5S_SCALAR), H5Sclose);
-  if (!write_attribute(file_, group, name, type, scalar, value.c_str())) fail(name + " cannot be written");
+  write_attribute(group, name, type, {}, value.c_str());
 }
 
-Hdf5File::Shape Hdf5File::shape(const std::string& name) const {
+std::uint64_t Hdf5File::size(const std::string& name) const {
   const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!set.valid()) fail(name + " is missing");
+  if (!set.valid()) fail(name + " is missing or damaged");
   const Handle space(H5Dget_space(set), H5Sclose);
-  const int dimensions = H5Sget_simple_extent_ndims(space);
-  if (dimensions < 0) fail(name + " cannot be read: the file is damaged");
-  std::vector<hsize_t> extent(static_cast<std::size_t>(dimensions));
-  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
-  return {extent.begin(), extent.end()};
+  const hssize_t values = H5Sget_simple_extent_npoints(space);
+  if (values < 0) fail(name + " is damaged");
+  return static_cast<std::uint64_t>(values);
 }
 
 std::vector<double> Hdf5File::read(const std::string& name) const {
-  const std::uint64_t largest = largest_size(path_);
-  std::uint64_t size = 1;
-  for (const std::uint64_t n : shape(name)) {
-    if (n > 0 && size > largest / n) fail(name + " claims to be larger than the file: the file is damaged");
-    size *= n;
-  }
-  std::vector<double> values(size);
+  // What was never written takes no room in the file, but could ask for any amount of memory.
+  const std::uint64_t values = size(name);
+  hsize_t file_bytes = 0;
+  H5Fget_filesize(file_, &file_bytes);
+  if (values > file_bytes) fail(fmt::format("{} has {} values, more than the file has bytes", name, values));
+  std::vector<double> read(values);
   const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()) < 0)
     fail(name + " cannot be read: the file is damaged");
-  return values;
+  return read;
+}
+
+void Hdf5File::read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value) const {
+  const Handle attribute(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  if (!attribute.valid()) fail(fmt::format("{} of {} is missing or damaged", name, group));
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, value) < 0)
+    fail(fmt::format("{} of {} cannot be read: the file is damaged", name, group));
 }
 
 double Hdf5File::read_number(const std::string& group, const std::string& name) const {
   double value = 0.0;
-  if (!read_attribute(file_, group, name, H5T_NATIVE_DOUBLE, &value)) fail(name + " is missing or no number");
+  read_attribute(group, name, H5T_NATIVE_DOUBLE, &value);
   return value;
 }
 
 std::int64_t Hdf5File::read_integer(const std::string& group, const std::string& name) const {
   std::int64_t value = 0;
-  if (!read_attribute(file_, group, name, H5T_NATIVE_INT64, &value)) fail(name + " is missing or no number");
+  read_attribute(group, name, H5T_NATIVE_INT64, &value);
   return value;
 }
 
 std::string Hdf5File::read_text(const std::string& group, const std::string& name) const {
   const Handle attribute(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  if (!attribute.valid()) fail(name + " is missing");
+  if (!attribute.valid()) fail(fmt::format("{} of {} is missing or damaged", name, group));
   const Handle type(H5Aget_type(attribute), H5Tclose);
-  const bool is_text = is_scalar(attribute) && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0;
-  if (!is_text) fail(name + " is no text");
-  const std::size_t size = H5Tget_size(type);
-  if (size > largest_size(path_)) fail(name + " claims to be larger than the file: the file is damaged");
-  std::string value(size, '\0');
-  if (H5Aread(attribute, type, value.data()) < 0) fail(name + " cannot be read");
-  return value.substr(0, value.find('\0'));
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0)
+    fail(fmt::format("{} of {} is not a text of fixed length", name, group));
+  std::string value(H5Tget_size(type), '\0');
+  read_attribute(group, name, type, value.data());
+  value.resize(std::min(value.size(), value.find('\0')));
+  return value;
 }
 
 bool Hdf5File::exists(const std::string& name) const {
-  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+  const htri_t found = H5Lexists(file_, name.c_str(), H5P_DEFAULT);
+  if (found < 0) fail(name + " cannot be looked up: the file is damaged");
+  return found > 0;
 }
 
 std::vector<std::string> Hdf5File::children(const std::string& group) const {
@@ -212,8 +257,9 @@ std::vector<std::string> Hdf5File::children(const std::string& group) const {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  if (exists(group))
-    H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names, H5P_DEFAULT);
+  if (exists(group) &&
+      H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names, H5P_DEFAULT) < 0)
+    fail(group + " cannot be listed: the file is damaged");
   return names;
 }
 

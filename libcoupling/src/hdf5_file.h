@@ -8,7 +8,9 @@
 namespace vesiflow::coupling {
 
 /// The few things this library asks of HDF5. Names of groups and datasets are absolute paths; missing groups are
-/// made. Every failure is a FileError naming the file and the object. Built without HDF5, opening a file throws.
+/// made. Every failure is a FileError naming the file, the object and what the system said. Built without HDF5, opening
+/// a file throws. What is written has checksums: of the data (Fletcher-32, by chunks) and of the metadata (the file
+/// format of HDF5 1.10); reading what has changed since fails. A block of zeros with its checksum is all that passes.
 class Hdf5File {
  public:
   enum class Mode { create, append, read };
@@ -27,18 +29,27 @@ class Hdf5File {
   void attribute(const std::string& group, const std::string& name, const std::vector<double>& values);
   void attribute(const std::string& group, const std::string& name, const std::string& value);
 
+  /// Ends the writing: only now is a full disk sure to have been noticed.
+  void close();
+
   std::vector<double> read(const std::string& name) const;
-  Shape shape(const std::string& name) const;
+  /// How many values a data set has.
+  std::uint64_t size(const std::string& name) const;
   double read_number(const std::string& group, const std::string& name) const;
   std::int64_t read_integer(const std::string& group, const std::string& name) const;
   std::string read_text(const std::string& group, const std::string& name) const;
 
+  /// Whether its group, which must exist, has the object.
   bool exists(const std::string& name) const;
   std::vector<std::string> children(const std::string& group) const;
   void remove(const std::string& name);
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
+  void write_values(const std::string& name, std::int64_t type, const void* values, const Shape& shape);
+  void write_attribute(const std::string& group, const std::string& name, std::int64_t type, const Shape& shape,
+                       const void* value);
+  void read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value) const;
 
   std::filesystem::path path_;
   std::int64_t file_ = -1;

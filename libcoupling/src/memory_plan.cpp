@@ -1,9 +1,13 @@
 #include "memory_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "available_memory.h"
+#include "coupling/plan.h"
 #include "coupling/simulation.h"
 #include "viscosity_plan.h"
 
@@ -49,6 +53,15 @@ MemoryPlan plan_memory(const Scene& scene) {
   if (scene.output.fluid_every > 0.0) plan.output = std::max(plan.output, 2.0 * field);
   if (plan.output > 0.0 || scene.output.vesicle_every > 0.0) plan.output += hdf5_bytes;
   return plan;
+}
+
+std::string memory_warning(const Scene& scene) {
+  const double planned = plan_memory(scene).total();
+  const AvailableMemory available = available_memory();
+  if (planned <= available.bytes) return "";
+  return fmt::format(
+      "this scene takes about {:.0f} MB, {} has {:.0f} MB: fewer domain.cells or mesh.latitudes take less, see --plan",
+      1e-6 * planned, available.of, 1e-6 * available.bytes);
 }
 
 }  // namespace vesiflow::coupling

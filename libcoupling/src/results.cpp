@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -13,6 +15,7 @@
 
 #include "atomic_file.h"
 #include "coupling/errors.h"
+#include "descriptor.h"
 #include "vesicle_record.h"
 
 namespace vesiflow::coupling {
@@ -21,17 +24,32 @@ namespace {
 constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5", "vesicle.xdmf", "fluid.h5",
                                      "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures"};
 
-long step_of(const std::string& row) {
-  return std::stol(row);
+long step_of(const std::string& row, const std::filesystem::path& file) {
+  long step = 0;
+  if (std::from_chars(row.data(), row.data() + row.size(), step).ec != std::errc())
+    throw FileError(fmt::format("{}: damaged: a row begins with \"{}\", not with a step; move the file away to go on",
+                                file.string(), row.substr(0, 20)));
+  return step;
 }
 
-// One write call for all rows: a kill leaves whole lines.
-void append_text(const std::filesystem::path& file, const std::string& text) {
-  const int descriptor = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  const bool written =
-      descriptor >= 0 && ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (descriptor >= 0) close(descriptor);
-  if (!written) throw FileError(fmt::format("{}: cannot be written: disk full, or no permission", file.string()));
+FileError not_written(const std::filesystem::path& file) {
+  return FileError(fmt::format("{}: cannot be written: {}", file.string(), std::generic_category().message(errno)));
+}
+
+// One write call for all rows; of rows for which there is no room nothing is left.
+void append_rows(const std::filesystem::path& file, const std::string& rows) {
+  const Descriptor descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  if (!descriptor.valid()) throw not_written(file);
+  const off_t size = lseek(descriptor, 0, SEEK_END);
+  if (write_all(descriptor, rows)) return;
+  const FileError error = not_written(file);
+  if (ftruncate(descriptor, size) != 0) throw not_written(file);
+  throw error;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string column_names(const vesicle::Diagnostics& diagnostics, bool has_distances) {
@@ -62,11 +80,12 @@ void prepare_directory(const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory, error);
   const std::filesystem::path probe = directory / ".vesiflow_probe";
   if (!error) {
-    std::ofstream stream(probe);
-    if (!stream) error = std::make_error_code(std::errc::permission_denied);
+    const Descriptor descriptor(open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
+    if (!descriptor.valid()) error = {errno, std::generic_category()};
   }
   std::error_code ignored;
   std::filesystem::remove(probe, ignored);
+  for (const char* name : result_files) std::filesystem::remove(temporary_of(directory / name), ignored);
   if (error)
     throw FileError(fmt::format("{}: results cannot be written there: {}; choose another folder with --out",
                                 directory.string(), error.message()));
@@ -85,26 +104,42 @@ std::optional<std::filesystem::path> move_earlier_results(const std::filesystem:
   return target;
 }
 
+// A kill within the write of a row, where it crosses a page of memory, leaves a part of it.
 DiagnosticsTable::DiagnosticsTable(const std::filesystem::path& directory) : file_(directory / "diagnostics.csv") {
-  std::ifstream stream(file_);
-  std::string row;
-  std::getline(stream, row);
-  while (std::getline(stream, row)) last_step_ = step_of(row);
+  if (!std::filesystem::exists(file_)) return;
+  std::string text = text_of(file_);
+  const std::size_t whole = text.rfind('\n') + 1;  // 0 if there is none
+  if (whole == 0) {
+    std::filesystem::remove(file_);
+    return;
+  }
+  if (whole < text.size()) {
+    text.resize(whole);
+    write_text_atomically(file_, text);
+  }
+  const std::size_t last_row = text.rfind('\n', whole - 2) + 1;
+  if (last_row > 0) last_step_ = step_of(text.substr(last_row), file_);
 }
 
 void DiagnosticsTable::rewind(long step) {
   if (last_step_ <= step) return;
-  std::ifstream stream(file_);
+  std::istringstream rows(text_of(file_));
   std::string kept, row;
-  std::getline(stream, kept);
+  std::getline(rows, kept);
   kept += '\n';
   last_step_ = -1;
-  while (std::getline(stream, row)) {
-    if (step_of(row) > step) break;
-    last_step_ = step_of(row);
+  while (std::getline(rows, row)) {
+    const long of_row = step_of(row, file_);
+    if (of_row > step) break;
+    last_step_ = of_row;
     kept += row + '\n';
   }
   write_text_atomically(file_, kept);
+}
+
+void DiagnosticsTable::flush_to_disk() const {
+  const Descriptor descriptor(open(file_.c_str(), O_RDONLY | O_CLOEXEC));
+  if (descriptor.valid() && fsync(descriptor) != 0) throw not_written(file_);
 }
 
 void DiagnosticsTable::write(Simulation& simulation) {
@@ -117,7 +152,7 @@ void DiagnosticsTable::write(Simulation& simulation) {
     text += fmt::format("{},{:.10g},{}", simulation.steps(), simulation.time(), i) + row_of(all[i]);
     text += has_distances ? fmt::format(",{:.10g}\n", distances[i]) : "\n";
   }
-  append_text(file_, text);
+  append_rows(file_, text);
   last_step_ = simulation.steps();
 }
 

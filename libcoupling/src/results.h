@@ -18,7 +18,8 @@ struct RunRecord {
   fluid::PhaseAccount output_table, output_vesicle, output_fluid, output_checkpoint;
 };
 
-/// Makes the directory and finds out whether files can be written there, before anything is computed.
+/// Makes the directory and finds out whether files can be written there, before anything is computed. Removes what a
+/// kill within a write has left of a file.
 /// \throws FileError
 void prepare_directory(const std::filesystem::path& directory);
 
@@ -28,13 +29,15 @@ std::optional<std::filesystem::path> move_earlier_results(const std::filesystem:
 void write_summary(const std::filesystem::path& directory, const RunOptions& options, Simulation& simulation,
                    const RunRecord& record);
 
-/// diagnostics.csv: one whole line per vesicle and time, appended at once.
+/// diagnostics.csv: one whole line per vesicle and time, appended at once. What a kill has left of a line is removed.
 class DiagnosticsTable {
  public:
   explicit DiagnosticsTable(const std::filesystem::path& directory);
   void write(Simulation& simulation);
   /// Removes the rows after `step`: a restarted run writes them again.
   void rewind(long step);
+  /// What a checkpoint counts on must not be lost with the power.
+  void flush_to_disk() const;
   long last_step() const { return last_step_; }
 
  private:

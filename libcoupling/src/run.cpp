@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <new>
 
 #include "atomic_file.h"
 #include "coupling/checkpoint.h"
@@ -83,6 +84,7 @@ class Run {
       : simulation_(simulation), options_(options), directory_(options.directory) {}
 
   RunStatus execute();
+  [[noreturn]] void fail(const FileError& error);
 
  private:
   std::filesystem::path checkpoint_file() const { return directory_ / "checkpoint.h5"; }
@@ -155,10 +157,9 @@ void Run::start() {
 
 // A run that went on after its last checkpoint has left rows and snapshots that will be computed again.
 void Run::rewind_files() {
-  const long step = simulation_.steps();
-  table_->rewind(step);
-  vesicle_snapshots_->rewind(step);
-  fluid_snapshots_->rewind(step);
+  table_->rewind(simulation_.steps());
+  vesicle_snapshots_->rewind(simulation_);
+  fluid_snapshots_->rewind(simulation_);
 }
 
 void Run::log_redistributions() {
@@ -174,6 +175,7 @@ void Run::log_redistributions() {
 }
 
 void Run::checkpoint() {
+  table_->flush_to_disk();
   write_checkpoint(checkpoint_file(), simulation_);
   last_checkpoint_ = checkpoint_file();
   checkpointed_step_ = simulation_.steps();
@@ -236,6 +238,21 @@ void Run::stop(const SimulationStopped& reason) {
   throw SimulationStopped(message, reason.advice());
 }
 
+// The reason goes into the summary if that can be written, which on a full disk it cannot.
+void Run::fail(const FileError& error) {
+  if (!table_) throw error;  // nothing has been computed yet
+  const std::string message =
+      last_checkpoint_ ? fmt::format("{}\n  last good checkpoint: {}; when the cause is gone, go on with --restart {}",
+                                     error.what(), last_checkpoint_->string(), last_checkpoint_->string())
+                       : fmt::format("{}\n  last good checkpoint: none yet", error.what());
+  record_.stop_reason = message;
+  try {
+    finish("stopped");
+  } catch (const FileError&) {
+  }
+  throw FileError(message);
+}
+
 RunStatus Run::execute() {
   start();
   const InterruptGuard guard;
@@ -269,12 +286,18 @@ RunStatus Run::execute() {
 }  // namespace
 
 RunStatus run(Simulation& simulation, const RunOptions& options) {
-  return Run(simulation, options).execute();
+  Run run(simulation, options);
+  try {
+    return run.execute();
+  } catch (const FileError& error) {
+    run.fail(error);
+  }
 }
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));
   spdlog::set_pattern("%^%l%$: %v");
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
   try {
     return program(argc, argv);
   } catch (const SceneError& error) {
@@ -286,6 +309,13 @@ int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   } catch (const FileError& error) {
     spdlog::error("{}", error.what());
     return exit_code::file_error;
+  } catch (const std::bad_alloc&) {
+    spdlog::error(
+        "out of memory: more is needed than the machine, or the limit set for the program (ulimit -v), has left\n"
+        "  --plan says how much a scene takes: about in proportion to domain.cells and to the square of "
+        "mesh.latitudes\n"
+        "  what was written before is whole: go on with --restart from the last checkpoint");
+    return exit_code::out_of_memory;
   } catch (const std::exception& error) {
     spdlog::error("internal error: {}", error.what());
     return exit_code::internal_error;

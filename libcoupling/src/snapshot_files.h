@@ -13,8 +13,8 @@ class VesicleSnapshots {
  public:
   explicit VesicleSnapshots(std::filesystem::path directory);
   void write(Simulation& simulation);
-  /// Forgets snapshots after `step`: a restarted run writes them again.
-  void rewind(long step);
+  /// Forgets snapshots after the present step: a restarted run writes them again.
+  void rewind(const Simulation& simulation);
   long last_step() const { return steps_.empty() ? -1 : steps_.rbegin()->first; }
 
  private:
@@ -27,7 +27,7 @@ class FluidSnapshots {
  public:
   explicit FluidSnapshots(std::filesystem::path directory);
   void write(const Simulation& simulation);
-  void rewind(long step);
+  void rewind(const Simulation& simulation);
   long last_step() const { return steps_.empty() ? -1 : steps_.rbegin()->first; }
 
  private:

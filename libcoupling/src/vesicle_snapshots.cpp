@@ -137,9 +137,13 @@ std::string xdmf(const std::map<long, double>& steps, const Scene& scene) {
 VesicleSnapshots::VesicleSnapshots(std::filesystem::path directory)
     : directory_(std::move(directory)), steps_(stored_steps(directory_ / "vesicle.h5")) {}
 
-void VesicleSnapshots::rewind(long step) {
-  drop_after(directory_ / "vesicle.h5", step);
-  steps_.erase(steps_.upper_bound(step), steps_.end());
+// The list first: it never names a snapshot that is not there.
+void VesicleSnapshots::rewind(const Simulation& simulation) {
+  const auto later = steps_.upper_bound(simulation.steps());
+  if (later == steps_.end()) return;
+  steps_.erase(later, steps_.end());
+  write_text_atomically(directory_ / "vesicle.xdmf", xdmf(steps_, simulation.scene()));
+  drop_after(directory_ / "vesicle.h5", simulation.steps());
 }
 
 void VesicleSnapshots::write(Simulation& simulation) {

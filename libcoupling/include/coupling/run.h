@@ -28,7 +28,8 @@ RunStatus run(Simulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.
 namespace exit_code {
-inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, interrupted = 130;
+inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, out_of_memory = 5,
+                     interrupted = 130;
 }
 
 /// Calls `program` and turns what it throws into a message on standard error and an exit code.
