@@ -33,7 +33,7 @@ for target in "${targets[@]}"; do
   out=out/fuzz/$target
   mkdir -p "$out/corpus"
   # An input must not ask for more memory than this, at once or in all (MB), nor take longer than that (seconds).
-  options=(-artifact_prefix="$out/" -malloc_limit_mb=256 -rss_limit_mb=2048 -timeout=20 -print_final_stats=1)
+  options=(-artifact_prefix="$out/" -malloc_limit_mb=256 -rss_limit_mb=2048 -timeout=60 -print_final_stats=1)
   [[ ! -e fuzz/$target.dict ]] || options+=("-dict=fuzz/$target.dict")
   if [[ $short ]]; then
     options+=(-seed=1 "-runs=${executions[$target]}" "fuzz/corpus/$target")
