@@ -27,7 +27,8 @@ declare -A executions=([coefficients]=20000 [mesh]=20000 [scene]=2000 [state]=50
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"
 
-export OMP_NUM_THREADS=1 ASAN_SYMBOLIZER_PATH="${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer || true)}"
+export OMP_NUM_THREADS=1 LSAN_OPTIONS=suppressions=fuzz/lsan.supp:print_suppressions=0
+export ASAN_SYMBOLIZER_PATH="${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer || true)}"
 failed=()
 for target in "${targets[@]}"; do
   out=out/fuzz/$target

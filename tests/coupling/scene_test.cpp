@@ -121,6 +121,12 @@ TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of(sphere, {"vesicles.0.density_difference=nan"}), {"density_difference = nan", "finite"});
 }
 
+// Found by fuzz/scene.cpp: a zero in a key ended the message.
+TEST(Scene, RefusalsArePrintable) {
+  expect_parts(message_of("\"\\u0000\\u001b[2J\" = 1\n" + sphere), {"??[2J", "there is no such key"});
+  expect_parts(message_of("title = [\"\\u0000\"]\n" + sphere), {"title = ", "must be text"});
+}
+
 TEST(Scene, RefusesUnknownKeysAndSuggestsOne) {
   expect_parts(message_of("[fluid]\nreynolds = 1\n" + sphere),
                {"test.toml:2", "fluid.reynolds", "did you mean fluid.reynolds_number"});
