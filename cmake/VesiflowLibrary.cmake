@@ -9,7 +9,8 @@ function(vesiflow_compile_options target)
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wold-style-cast
     -fno-math-errno -fno-trapping-math
     $<$<CONFIG:Release>:-O3>
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas>  # GCC ivdep
+    # It knows no GCC ivdep, and tells of loops that it does not vectorise.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas> $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>
     $<$<BOOL:${VESIFLOW_NATIVE}>:-march=native>
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)

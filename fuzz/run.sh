@@ -22,7 +22,7 @@ targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] || targets=(coefficients mesh scene state checkpoint_bytes checkpoint_contents)
 
 # Executions of a short run: some seconds each.
-declare -A executions=([coefficients]=20000 [mesh]=20000 [scene]=2000 [state]=500 [checkpoint_bytes]=1000 [checkpoint_contents]=500)
+declare -A executions=([coefficients]=10000 [mesh]=20000 [scene]=2000 [state]=100 [checkpoint_bytes]=150 [checkpoint_contents]=200)
 
 cmake --preset fuzz >/dev/null
 cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"

@@ -51,8 +51,9 @@ class StateEditor {
  private:
   double number(double old) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr double awkward[] = {0.0,   -1.0,   1.0,   0.5, std::numeric_limits<double>::quiet_NaN(), infinity, -infinity,
-                                  1e308, 1e-320, 1e155, 3e9, -3e9};
+    constexpr double awkward[] = {0.0,      -1.0,      1.0,   0.5,    std::numeric_limits<double>::quiet_NaN(),
+                                  infinity, -infinity, 1e308, 1e-320, 1e155,
+                                  3e9,      -3e9};
     const double chosen = choices_.PickValueInArray(awkward);
     return choices_.ConsumeBool() ? old * chosen : chosen;
   }

@@ -23,7 +23,8 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 // With what the file says in it, of which only text is printed: no end of the message, no commands to a terminal.
 [[noreturn]] void refuse_scene(std::string message) {
-  std::ranges::replace_if(message, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
+  std::ranges::replace_if(
+      message, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
   throw SceneError(message);
 }
 
@@ -295,7 +296,7 @@ void refuse_unknown(const Document& document, const toml::table& table, const st
       const auto nearest = std::ranges::min_element(
           known, {}, [&](const std::string& candidate) { return edit_distance(candidate, key); });
       refuse_scene(fmt::format("{}: {}: there is no such key; did you mean {}? (docs/scene.md lists all)",
-                                   document.where(key, node), key, *nearest));
+                               document.where(key, node), key, *nearest));
     }
   }
 }

@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 Scene tiny(const std::string& markers) {
-  return small_scene({"domain.cells=12", "mesh.latitudes=8", "mesh.tangential_degrees=8", "membrane.g=2",
-                      "time.markers=" + markers});
+  return small_scene(
+      {"domain.cells=12", "mesh.latitudes=8", "mesh.tangential_degrees=8", "membrane.g=2", "time.markers=" + markers});
 }
 
 class CheckpointContents : public testing::Test {
