@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and plotting need; silent when nothing is missing.
-# usage: scripts/install-deps.sh [--dev]      --dev adds the tools of the format and script checks
+# usage: scripts/install-deps.sh [--dev]      --dev adds the tools of the format and script checks, the fuzz targets and the sanitizers
 # Knows Debian 12 and later; elsewhere it only checks, and names what is missing.
 set -euo pipefail
 
@@ -12,12 +12,14 @@ packages=(
   python3 python3-numpy python3-matplotlib python3-h5py
 )
 commands=(g++ cmake ninja git)
-dev_commands=(clang-format clang-tidy shellcheck)
+dev_commands=(clang-format clang-tidy shellcheck clang++ valgrind)
+# With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
+dev_packages=(clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind)
 
 case "${1:-}" in
   "") ;;
   --dev)
-    packages+=("${dev_commands[@]}")
+    packages+=("${dev_packages[@]}")
     commands+=("${dev_commands[@]}")
     ;;
   *)

@@ -261,7 +261,9 @@ void restore_checkpoint(const std::filesystem::path& path, Simulation& simulatio
   });
   try {
     simulation.restore(state);
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::logic_error& error) {  // a value that cannot be, a membrane without a geometry
+    throw SceneError(fmt::format("{}: the checkpoint is damaged: {}", path.string(), error.what()));
+  } catch (const SimulationStopped& error) {  // a marker outside the box
     throw SceneError(fmt::format("{}: the checkpoint is damaged: {}", path.string(), error.what()));
   }
 }

@@ -1,5 +1,9 @@
 #include "immersed_vesicle.h"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include "initial_shape.h"
 #include "phase_timer.h"
 
@@ -92,6 +96,8 @@ void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_veloc
 }
 
 void ImmersedVesicle::restore_history(double dt, std::span<const double> history) {
+  if (!std::ranges::all_of(history, [](double value) { return std::isfinite(value); }))
+    throw std::invalid_argument("the history of the markers has a value that is not finite");
   if (history.empty())
     motion->restart();
   else

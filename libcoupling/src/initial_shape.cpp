@@ -98,7 +98,12 @@ void check_apart(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
     surfaces.emplace_back(scene.latitudes(i));
-    surfaces.back().update(markers.back());
+    try {
+      surfaces.back().update(markers.back());
+    } catch (const std::logic_error& error) {  // too small or too large for its areas to be numbers
+      throw SceneError(
+          fmt::format("{}: vesicles.{}.radius = {:g}: {}", name, i, scene.vesicles[i].radius, error.what()));
+    }
   }
   for (std::size_t a = 0; a < markers.size(); ++a)
     for (std::size_t b = a; b < markers.size(); ++b)

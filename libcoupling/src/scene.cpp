@@ -20,6 +20,8 @@ namespace {
 constexpr double largest_tension_excess = 16.0 / 7.0;
 // A marker should not turn by more than about 15 degrees in a step.
 constexpr double largest_turn_per_step = 0.25;
+// In lengths of the box: coordinates keep ten digits of it.
+constexpr double largest_distance = 1e6;
 
 std::string list(const std::array<bool, 3>& axes) {
   return fmt::format("[{}, {}, {}]", axes[0], axes[1], axes[2]);
@@ -30,6 +32,13 @@ void check_domain(const Scene& scene, const std::string& name) {
     if (!(scene.domain.upper[axis] > scene.domain.lower[axis]))
       throw SceneError(fmt::format("{}: domain.upper[{}] = {:g}: must be above domain.lower[{}] = {:g}", name, axis,
                                    scene.domain.upper[axis], axis, scene.domain.lower[axis]));
+    const double length = scene.domain.upper[axis] - scene.domain.lower[axis];
+    const double farthest = std::max(std::abs(scene.domain.lower[axis]), std::abs(scene.domain.upper[axis]));
+    if (!(std::isfinite(length) && farthest <= largest_distance * length))
+      throw SceneError(fmt::format(
+          "{}: domain.lower[{}] = {:g}, domain.upper[{}] = {:g}: must lie within {:g} times their distance from 0, and "
+          "that distance be finite; farther off coordinates have too few digits",
+          name, axis, scene.domain.lower[axis], axis, scene.domain.upper[axis], largest_distance));
     if (scene.domain.mirror[axis] && scene.domain.periodic[axis])
       throw SceneError(fmt::format(
           "{}: domain.mirror = {}: {} is periodic too (domain.periodic); a plane of symmetry needs an axis with walls",
@@ -220,8 +229,12 @@ void check_vesicle_keys(const Scene& scene, std::size_t i, const std::string& na
     throw SceneError(fmt::format("{}: {}.fit_degrees = {}: must be below {} = {}", name, key, *vesicle.fit_degrees,
                                  latitudes_key(scene, i), scene.latitudes(i)));
   const auto& a = vesicle.rotation_axis;
-  if (!(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] > 0.0))
-    throw SceneError(fmt::format("{}: {}.rotation_axis = [0, 0, 0]: must not vanish", name, key));
+  const double squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  if (!(squares > 0.0 && std::isfinite(squares)))
+    throw SceneError(
+        fmt::format("{}: {}.rotation_axis = [{:g}, {:g}, {:g}]: must not vanish, nor be so long or short that "
+                    "its length overflows",
+                    name, key, a[0], a[1], a[2]));
 }
 
 // A vesicle on both sides of a plane of symmetry must be symmetric about it, markers and all. Returns how low it may reach.
@@ -241,18 +254,40 @@ double check_mirrored(const Scene& scene, std::size_t i, int axis, const vesicle
   return -std::numeric_limits<double>::infinity();
 }
 
+// A vesicle need not be in the box along a periodic axis, but some periods off at most, and not be many of them long.
+void check_within_periods(const Scene& scene, std::size_t i, int axis, double from, double to,
+                          const std::string& name) {
+  constexpr double most_periods = 10.0;
+  const auto u = static_cast<std::size_t>(axis);
+  const double length = scene.domain.upper[u] - scene.domain.lower[u];
+  if (!(to - from <= most_periods * length))
+    throw SceneError(
+        fmt::format("{}: vesicles.{}: is {:.4g} long along {}, along which the box repeats after {:.4g}; at "
+                    "most {:g} times that",
+                    name, i, to - from, "xyz"[u], length, most_periods));
+  if (!(std::max(std::abs(from), std::abs(to)) <= largest_distance * length))
+    throw SceneError(
+        fmt::format("{}: vesicles.{}.centre[{}] = {:g}: must be within {:g} lengths of the box of 0; farther "
+                    "off coordinates have too few digits",
+                    name, i, axis, scene.vesicles[i].centre[u], largest_distance));
+}
+
 void check_inside_box(const Scene& scene, std::size_t i, const std::string& name) {
   const vesicle::VectorField markers = checked_markers(scene, i, name);
   const double distance = wall_distance(scene.coupling.kernel);
   for (int axis = 0; axis < 3; ++axis) {
     const auto u = static_cast<std::size_t>(axis);
-    if (scene.domain.periodic[u]) continue;
-    const double h = (scene.domain.upper[u] - scene.domain.lower[u]) / scene.domain.cells[u];
+    const double length = scene.domain.upper[u] - scene.domain.lower[u];
+    const double from = markers.col(axis).minCoeff(), to = markers.col(axis).maxCoeff();
+    if (scene.domain.periodic[u]) {
+      check_within_periods(scene, i, axis, from, to, name);
+      continue;
+    }
+    const double h = length / scene.domain.cells[u];
     const bool mirrored = scene.domain.mirror[u];
     const double low = mirrored ? check_mirrored(scene, i, axis, markers, name) : scene.domain.lower[u] + distance * h;
     const double high = scene.domain.upper[u] - distance * h;
-    const double from = markers.col(axis).minCoeff(), to = markers.col(axis).maxCoeff();
-    if (from < low || to > high)
+    if (!(from >= low && to <= high))
       throw SceneError(
           fmt::format("{}: vesicles.{}.centre = [{:g}, {:g}, {:g}]: the vesicle reaches from {:.4g} to {:.4g} "
                       "along {}; it must stay within [{:.4g}, {:.4g}], {} grid spacings off the walls",

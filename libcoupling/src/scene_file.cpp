@@ -21,6 +21,13 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
+// With what the file says in it, of which only text is printed: no end of the message, no commands to a terminal.
+[[noreturn]] void refuse_scene(std::string message) {
+  std::ranges::replace_if(
+      message, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
+  throw SceneError(message);
+}
+
 std::string show(const toml::node& node) {
   std::ostringstream text;
   node.visit([&](const auto& value) { text << value; });
@@ -50,7 +57,7 @@ class Document {
     try {
       root_ = toml::parse(text, name_);
     } catch (const toml::parse_error& error) {
-      throw SceneError(fmt::format("{}:{}: not valid TOML: {}", name_, error.source().begin.line, error.description()));
+      refuse_scene(fmt::format("{}:{}: not valid TOML: {}", name_, error.source().begin.line, error.description()));
     }
     for (const std::string& item : overrides) apply(item);
   }
@@ -60,7 +67,7 @@ class Document {
   const toml::node* find(const std::string& key) const { return root_.at_path(path_of(key)).node(); }
 
   [[noreturn]] void refuse(const std::string& key, const toml::node& node, const std::string& allowed) const {
-    throw SceneError(fmt::format("{}: {} = {}: {}", where(key, node), key, show(node), allowed));
+    refuse_scene(fmt::format("{}: {} = {}: {}", where(key, node), key, show(node), allowed));
   }
 
   std::string where(const std::string& key, const toml::node& node) const {
@@ -88,7 +95,7 @@ class Document {
   void apply(const std::string& item) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw SceneError(fmt::format("--set {}: expected key=value, such as time.end=2.0", item));
+      refuse_scene(fmt::format("--set {}: expected key=value, such as time.end=2.0", item));
     const std::string key = item.substr(0, equals), value = item.substr(equals + 1);
     toml::table parsed;
     try {
@@ -110,7 +117,7 @@ class Document {
       node = root_.get(key);
     }
     if (node == nullptr || !node->is_table())
-      throw SceneError(fmt::format("--set {}: there is no '{}' in {}", item, key, name_));
+      refuse_scene(fmt::format("--set {}: there is no '{}' in {}", item, key, name_));
     return *node->as_table();
   }
 
@@ -288,15 +295,15 @@ void refuse_unknown(const Document& document, const toml::table& table, const st
     } else if (!known.contains(key)) {
       const auto nearest = std::ranges::min_element(
           known, {}, [&](const std::string& candidate) { return edit_distance(candidate, key); });
-      throw SceneError(fmt::format("{}: {}: there is no such key; did you mean {}? (docs/scene.md lists all)",
-                                   document.where(key, node), key, *nearest));
+      refuse_scene(fmt::format("{}: {}: there is no such key; did you mean {}? (docs/scene.md lists all)",
+                               document.where(key, node), key, *nearest));
     }
   }
 }
 
 void read_vesicles(Document& document, Scene& scene, const std::string& name) {
   const toml::node* node = document.root().get("vesicles");
-  if (node == nullptr) throw SceneError(fmt::format("{}: there is no [[vesicles]]; a scene needs at least one", name));
+  if (node == nullptr) refuse_scene(fmt::format("{}: there is no [[vesicles]]; a scene needs at least one", name));
   if (!node->is_array_of_tables() || node->as_array()->empty())
     document.refuse("vesicles", *node, "must be tables, each headed [[vesicles]]");
   const toml::array& list = *node->as_array();
@@ -346,7 +353,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
 Scene load_scene(const std::filesystem::path& file, const Overrides& overrides) {
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file))
-    throw SceneError(fmt::format("{}: cannot be read: no such scene file, or no permission", file.string()));
+    refuse_scene(fmt::format("{}: cannot be read: no such scene file, or no permission", file.string()));
   std::ostringstream text;
   text << stream.rdbuf();
   return parse_scene(text.str(), file.string(), overrides);

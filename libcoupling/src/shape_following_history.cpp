@@ -34,6 +34,11 @@ void ShapeFollowing::restore_history(double /*dt*/, std::span<const double> hist
   if (history.size() != size)
     throw std::invalid_argument("shape_following: a history of " + std::to_string(history.size()) +
                                 " values, expected " + std::to_string(size));
+  const auto is_count = [](double value) { return value >= 0.0 && value <= 1e9; };
+  if (!(history[0] >= 0.0) || !is_count(history[1]) || !is_count(history[2]))
+    throw std::invalid_argument("shape_following: a history of a step of " + std::to_string(history[0]) +
+                                " with counts " + std::to_string(history[1]) + " and " + std::to_string(history[2]) +
+                                ": must be >= 0, the counts <= 1e9");
   restart();
   previous_dt_ = history[0];
   corrections_ = static_cast<int>(history[1]);

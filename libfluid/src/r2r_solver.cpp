@@ -70,7 +70,7 @@ std::size_t R2rSolver::estimate_memory(const EllipticProblem& problem) {
 }
 
 double R2rSolver::solve(ConstView rhs, View x) {
-  const auto [nx, ny, nz] = extent_;
+  const int nx = extent_[0], ny = extent_[1], nz = extent_[2];
   const auto row = [&](int j, int k) { return work_.get() + (static_cast<std::ptrdiff_t>(k) * ny + j) * nx; };
   for (int k = 0; k < nz; ++k) {
     for (int j = 0; j < ny; ++j) std::copy_n(rhs.row(j, k), nx, row(j, k));

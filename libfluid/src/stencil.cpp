@@ -56,7 +56,7 @@ void constant_laplacian_row(const EllipticProblem& problem, int block, ConstView
     const double h = problem.grid.spacing(axis);
     scale[axis] = problem.mu.value() / (h * h);
   }
-  const auto [sx, sy, sz] = scale;
+  const double sx = scale[0], sy = scale[1], sz = scale[2];
   const double diagonal = problem.alpha + 2.0 * (sx + sy + sz);
   const int begin = first_unknown(problem.grid, problem.centring(block), 0);
   const int end = begin + problem.extent(block)[0];

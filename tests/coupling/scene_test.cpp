@@ -82,6 +82,14 @@ TEST(Scene, WritesItselfAndReadsBackTheSame) {
   EXPECT_EQ(parse(text).time.step, scene.time.step);
 }
 
+// A checkpoint has the scene in it: a title that does not read back would make it useless.
+TEST(Scene, WritesTitlesOfAnyCharacters) {
+  const std::string title = R"("\u0000 \u0001\t\n\r\u001b\u007f \\ \" é")";
+  const Scene scene = parse("title = " + title + "\n" + sphere);
+  ASSERT_EQ(scene.title, std::string("\0 \1\t\n\r\x1b\x7f \\ \" \xc3\xa9", 15));
+  EXPECT_EQ(parse(to_toml(scene)).title, scene.title);
+}
+
 TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of("[fluid]\nreynolds_number = -1\n" + sphere),
                {"test.toml:2", "fluid.reynolds_number = -1", "> 0"});
@@ -113,6 +121,12 @@ TEST(Scene, RefusesBadValuesWithFileLineKeyValueAndRange) {
   expect_parts(message_of(sphere, {"vesicles.0.density_difference=nan"}), {"density_difference = nan", "finite"});
 }
 
+// Found by fuzz/scene.cpp: a zero in a key ended the message.
+TEST(Scene, RefusalsArePrintable) {
+  expect_parts(message_of("\"\\u0000\\u001b[2J\" = 1\n" + sphere), {"??[2J", "there is no such key"});
+  expect_parts(message_of("title = [\"\\u0000\"]\n" + sphere), {"title = ", "must be text"});
+}
+
 TEST(Scene, RefusesUnknownKeysAndSuggestsOne) {
   expect_parts(message_of("[fluid]\nreynolds = 1\n" + sphere),
                {"test.toml:2", "fluid.reynolds", "did you mean fluid.reynolds_number"});
@@ -138,6 +152,24 @@ TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
   expect_parts(
       message_of(sphere, {"fluid.viscosity_ratio=5", "fluid.viscous_treatment=implicit", "fluid.velocity_solver=fft"}),
       {"fluid.velocity_solver = \"fft\"", "fluid.viscous_treatment", "auto, pcg or cholmod"});
+}
+
+// Found by fuzz/scene.cpp, or while writing it: what overflowed, took for ever or ended as an "internal error".
+TEST(Scene, RefusesNumbersBeyondWhatCanBeComputedWith) {
+  const auto with = [](Overrides overrides) {
+    overrides.insert(overrides.begin(), {"domain.periodic=[true, true, false]"});
+    return message_of(sphere, overrides);
+  };
+  expect_parts(with({"domain.lower=[-1e308, -6, -6]", "domain.upper=[1e308, 6, 6]"}),
+               {"domain.lower[0] = -1e+308", "finite"});
+  expect_parts(with({"domain.lower=[1e12, -6, -6]", "domain.upper=[1000000000012.0, 6, 6]"}),
+               {"domain.upper[0]", "too few digits"});
+  expect_parts(with({"vesicles.0.centre=[1e300, 0, 0]"}), {"vesicles.0.centre[0] = 1e+300", "lengths of the box"});
+  EXPECT_EQ(with({"vesicles.0.centre=[36, -24, 0]"}), "accepted");
+  expect_parts(with({"domain.lower=[-1e-4, -1e-4, -6]", "domain.upper=[1e-4, 1e-4, 6]"}),
+               {"vesicles.0", "long along x", "repeats after 0.0002"});
+  expect_parts(with({"vesicles.0.radius=1e-300"}), {"vesicles.0.radius = 1e-300", "area"});
+  expect_parts(with({"vesicles.0.rotation_axis=[1e-300, 0, 0]"}), {"vesicles.0.rotation_axis = [1e-300, 0, 0]"});
 }
 
 TEST(Scene, RefusesPeriodicAxesAndStepsThatTheFlowForbids) {

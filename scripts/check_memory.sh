@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# Runs a few steps of the coupled method under valgrind: shapes read from files, every kind of output, and a restart.
+# usage: scripts/check_memory.sh      (builds preset valgrind)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+cmake --preset valgrind >/dev/null
+cmake --build build/valgrind --target vesicles
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+export OMP_NUM_THREADS=1
+check() {
+  valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite,indirect,possible \
+    --errors-for-leak-kinds=definite,indirect,possible --suppressions=tests/sanitizers/valgrind.supp \
+    build/valgrind/apps/vesicles "$@" --quiet --threads 1
+}
+check tests/sanitizers/two_vesicles.toml --out "$scratch/run"
+check --restart "$scratch/run/checkpoint.h5" --set time.end=0.05 --out "$scratch/run"
+echo "valgrind has nothing to say"
