@@ -44,7 +44,7 @@ def carry_out(what, level, program, jobs):
     quietest = {}
     for cell, values in measured.items():
         problem = what.same_problem(*cell)
-        if values["completed"]:
+        if values["completed"] and problem is not None:
             quietest[problem] = min(quietest.get(problem, math.inf), values["divergence"])
     cells = []
     for cell, run in wanted.items():

@@ -32,7 +32,7 @@ class Axis:
 @dataclasses.dataclass(frozen=True)
 class Map:
     """keys(panel, x, y): what differs from the scene. same_problem(panel, x, y): runs of one physical problem, of which the quietest tells how quiet
-    it can be. recommended(panel, x, y, convection): whether documents recommend it, `source` says which; convection: the longest step at which the
+    it can be; None where there are too few to tell. recommended(panel, x, y, convection): whether documents recommend it, `source` says which; convection: the longest step at which the
     program's plan calls the explicit convection stable. limits(panel): lines (label, x, y)."""
 
     name: str
@@ -109,7 +109,7 @@ SHAPES = Map(
     Axis("Ca", (0.05, 0.2, 1, 2.5, 10, 30, 100), (0.05, 2.5, 100)), 8,
     lambda start, volume, ca: ROOMY | {"vesicles.0.reduced_volume": volume, "membrane.capillary_number": ca, "time.step": "1/24", "membrane.sigma0": 2000,
                                        "vesicles.0.rotation_deg": 0 if start == "from across the flow" else 63},
-    lambda start, volume, ca: (volume, ca),
+    lambda start, volume, ca: None,
     lambda start, volume, ca, convection: volume >= 0.7, "docs/time_integration.md: to a reduced volume of 0.7 from a start across the flow")
 
 
@@ -170,7 +170,8 @@ INERTIA = Map(
 def _mesh_keys(markers, latitudes, cells):
     h = 6 / cells
     step, g = ("1/24", 100) if markers == "shape_following" else ("1/192", 4)
-    return box(3, cells) | {"mesh.latitudes": latitudes, "time.markers": markers, "time.step": step, "membrane.sigma0": round(g * 4 * h / number(step), 6)}
+    keys = {"mesh.latitudes": latitudes, "time.markers": markers, "time.step": step, "membrane.sigma0": round(g * 4 * h / number(step), 6)}
+    return box(3, cells) | keys | ({"mesh.tangential_degrees": latitudes} if latitudes < 15 else {})
 
 
 def _mesh_recommended(markers, latitudes, cells, convection):
@@ -200,8 +201,9 @@ def _formula_keys(how, volume, formula):
 
 FORMULA_MAP = Map(
     "formulas", "filters, tension forms, Laplacians", ("euler, 24 latitudes", "euler, 48 latitudes", "shape_following, 32 latitudes"),
-    Axis("reduced volume", (0.7, 0.8, 0.9, 0.975), (0.8, 0.9)), Axis("formula", tuple(FORMULAS), tuple(FORMULAS)), 4, _formula_keys,
-    lambda how, volume, formula: volume, lambda how, volume, formula, convection: formula in ADVISED, "docs/scene.md, membrane and mesh",
+    Axis("reduced volume", (0.7, 0.8, 0.9, 0.975), (0.8,)), Axis("formula", tuple(FORMULAS), tuple(FORMULAS)), 4, _formula_keys,
+    lambda how, volume, formula: volume,
+    lambda how, volume, formula, convection: formula in ADVISED and not (how.startswith("shape") and formula in ("volume penalty", "preset paper")), "docs/scene.md, membrane and mesh",
     quick_panels=("euler, 24 latitudes", "shape_following, 32 latitudes"))
 
 ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP)}

@@ -38,7 +38,7 @@ def _squares(axis, own):
     for (i, j), cell in own.items():
         hatch = "////" if cell["verdict"] == verdicts.REFUSED else None
         axis.add_patch(plt.Rectangle((i - 0.5, j - 0.5), 1, 1, facecolor=COLOURS[cell["verdict"]], edgecolor="white", linewidth=0.8, hatch=hatch))
-        axis.text(i, j, _text(cell), ha="center", va="center", fontsize=5.5, color="0.15")
+        axis.text(i, j, _text(cell), ha="center", va="center", fontsize=6, color="white" if cell["verdict"] == verdicts.BLOWN_UP else "0.15", zorder=4)
 
 
 def _text(cell):
@@ -78,7 +78,8 @@ def _lines(axis, limits, xs, ys):
         seen = [k for k, (p, q) in enumerate(zip(at_x, at_y)) if 0 <= p <= len(xs) - 1.4 and 0 <= q <= len(ys) - 0.6]
         if label and seen:
             k = seen[len(seen) // 2]
-            axis.text(at_x[k] + 0.1, at_y[k], label, fontsize=6, color=drawing.BLUE, rotation=0)
+            axis.text(at_x[k], at_y[k] + 0.5, label, fontsize=6, color=drawing.BLUE, ha="center", va="center", zorder=5,
+                      bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.8})
 
 
 def _convection(xs, ys, own):

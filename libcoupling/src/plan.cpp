@@ -264,7 +264,10 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(scene.membrane.area == vesicle::AreaControl::penalty, "area penalty",
             fmt::format("force with c_a = {:g}", scene.membrane.area_stiffness), "membrane.area is not \"penalty\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
-            fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
+            fmt::format("force with c_v = {:g}{}", scene.membrane.volume_stiffness,
+                        scene.follows_shape() ? "  <- WARNING: explicit, unstable in the long steps of these markers: "
+                                                "take membrane.volume = \"projection\""
+                                              : ""),
             "membrane.volume is not \"penalty\"");
   describe_external_forces(plan, scene);
   plan.part(true, "spread, interpolate", describe_kernel(scene.coupling.kernel), "");

@@ -31,9 +31,9 @@ constexpr double gmres_tolerance = 1e-4, worst_residual = 1e-2;
 // Z over the rates of MembraneResponse, without inertia and where inertia dominates the response (seen by trial: 1.5 is unstable
 // there at Re = 1).
 constexpr double safety = 1.5, safety_with_inertia = 3.0;
-// More where part of the viscosity is explicit: 10 at ratio 20, where 3 is unstable at dt = 1/48, and 3 at ratio 5. A vesicle that is
-// 20 times less viscous than the fluid around it needs as much: with none, noise grew at ratio 0.05 in steps of 1/96.
-constexpr double safety_per_ratio = 1.0;
+// More where part of the viscosity is explicit: 10 at ratio 20, where 3 is unstable at dt = 1/48, and 3 at ratio 5. Around a thin
+// fluid, 1.5 is unstable at ratio 0.05 with dt of 1/12 to 1/96 if it is extrapolated, 3 is quiet from 1/24 on, and 4.5 from 1/48.
+constexpr double safety_per_ratio = 1.0, safety_of_thin = 3.0;
 
 }  // namespace
 
@@ -74,14 +74,15 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   older_correction_.set_zero();
   solved_viscosity_ = 0.5 * (1.0 + scene.viscosity_ratio(number));
   explicit_viscosity_ = 0.0;
-  contrast_ = 1.0;
   if (scene.has_viscosity_contrast() && has_inertia_ &&
       scene.fluid.viscous_treatment != fluid::ViscousTreatment::implicit) {
     double largest = 1.0;
     for (std::size_t i = 0; i < scene.vesicles.size(); ++i) largest = std::max(largest, scene.viscosity_ratio(i));
     explicit_viscosity_ = largest - solved_viscosity_;
     solved_viscosity_ = largest;
-    contrast_ = largest / std::min(1.0, scene.viscosity_ratio(number));
+    const double share = explicit_viscosity_ / solved_viscosity_;
+    lagging_viscosity_ = safety_per_ratio * share * (solved_viscosity_ - 1.0);
+    if (extrapolates_viscosity_ && scene.viscosity_ratio(number) < 1.0) lagging_viscosity_ += safety_of_thin * share;
   }
   vesicle::Conserved conserved;
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
@@ -203,8 +204,7 @@ void ShapeFollowing::find_rates(const Surface& surface) {
 
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
   const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
-  const double viscosity = explicit_viscosity_ / solved_viscosity_ * (contrast_ - 1.0);
-  const double lagging = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
+  const double lagging = safety + (safety_with_inertia - safety) * inertia + lagging_viscosity_;
   const double c = overestimate_.value_or(lagging);
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
   double variance = 0.0;

@@ -45,7 +45,7 @@ TEST(HostileStarts, PlanWarnsOfMembranesNearEachOtherAndNearWalls) {
     return describe_plan(scene, 1).find("is not resolved below 2 h") != std::string::npos;
   };
   EXPECT_FALSE(warns(pair_at(0.45)));
-  EXPECT_TRUE(warns(pair_at(0.3)));  // h = 0.1875
+  EXPECT_TRUE(warns(pair_at(0.3)));                                                         // h = 0.1875
   EXPECT_FALSE(plan_says({"vesicles.0.centre=[0, 1.4, 0]"}, "is not resolved below 2 h"));  // y semi-axis 0.83: 3 h
   EXPECT_TRUE(plan_says({"vesicles.0.centre=[0, 1.75, 0]"}, "is not resolved below 2 h"));
   EXPECT_THROW(small_scene({"vesicles.0.centre=[0, 1.9, 0]"}), SceneError);
@@ -87,11 +87,37 @@ TEST(HostileStarts, StableTensionNumberKnowsTheIntegrator) {
   EXPECT_THROW(small_scene({"membrane.g=8.5", "time.markers=ab2"}), SceneError);
 }
 
+TEST(HostileStarts, PlanWarnsOfAnImplicitContrastWithShapeFollowing) {
+  const auto warns = [](const char* ratio, const char* markers) {
+    return plan_says({"fluid.viscous_treatment=implicit", std::string("fluid.viscosity_ratio=") + ratio,
+                      std::string("time.markers=") + markers},
+                     "at this contrast");
+  };
+  EXPECT_TRUE(warns("20", "shape_following"));
+  EXPECT_TRUE(warns("0.05", "shape_following"));
+  EXPECT_FALSE(warns("5", "shape_following"));
+  EXPECT_FALSE(warns("20", "euler"));
+}
+
+// A vesicle that is 20 times thinner than the fluid around it: the viscosity that is extrapolated made waves of its membrane grow by e in
+// a quarter of a unit of time.
+TEST(HostileStarts, AThinFluidInsideIsQuiet) {
+  Scene scene =
+      small_scene({"fluid.viscosity_ratio=0.05", "time.markers=shape_following", "time.step=1/24", "time.end=4",
+                   "domain.lower=[-3, 0, -3]", "domain.cells=[24, 12, 24]", "domain.mirror=[false, true, false]"});
+  scene.membrane.sigma0 = 2000;
+  Simulation simulation(scene);
+  while (!simulation.finished()) simulation.step();
+  EXPECT_LT(simulation.measure()[0].surface_divergence_max, 0.1);
+}
+
 // A flow that turns round at once: in Stokes flow a sphere turns with it in the next steps, as fast as before.
 TEST(HostileStarts, ASphereFollowsAFlowThatTurnsRoundAtOnce) {
   Scene scene = small_scene({"time.markers=shape_following", "time.step=1/24"});
   scene.vesicles[0] = sphere_of(1.0);
-  const auto flow = [](const fluid::Vector3& x, double t) { return fluid::Vector3{t < 0.5 + 1e-9 ? x[2] : -x[2], 0, 0}; };
+  const auto flow = [](const fluid::Vector3& x, double t) {
+    return fluid::Vector3{t < 0.5 + 1e-9 ? x[2] : -x[2], 0, 0};
+  };
   Simulation simulation(scene, flow, false);
   const auto speed_at_the_top = [&] {  // of the marker highest in z
     Eigen::Index top = 0;
