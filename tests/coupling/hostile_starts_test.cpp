@@ -99,8 +99,7 @@ TEST(HostileStarts, PlanWarnsOfAnImplicitContrastWithShapeFollowing) {
   EXPECT_FALSE(warns("20", "euler"));
 }
 
-// A vesicle that is 20 times thinner than the fluid around it: the viscosity that is extrapolated made waves of its membrane grow by e in
-// a quarter of a unit of time.
+// A vesicle that is 20 times thinner than the fluid around it: the viscosity that is extrapolated made waves of its membrane grow.
 TEST(HostileStarts, AThinFluidInsideIsQuiet) {
   Scene scene =
       small_scene({"fluid.viscosity_ratio=0.05", "time.markers=shape_following", "time.step=1/24", "time.end=4",
@@ -109,26 +108,6 @@ TEST(HostileStarts, AThinFluidInsideIsQuiet) {
   Simulation simulation(scene);
   while (!simulation.finished()) simulation.step();
   EXPECT_LT(simulation.measure()[0].surface_divergence_max, 0.1);
-}
-
-// A flow that turns round at once: in Stokes flow a sphere turns with it in the next steps, as fast as before.
-TEST(HostileStarts, ASphereFollowsAFlowThatTurnsRoundAtOnce) {
-  Scene scene = small_scene({"time.markers=shape_following", "time.step=1/24"});
-  scene.vesicles[0] = sphere_of(1.0);
-  const auto flow = [](const fluid::Vector3& x, double t) {
-    return fluid::Vector3{t < 0.5 + 1e-9 ? x[2] : -x[2], 0, 0};
-  };
-  Simulation simulation(scene, flow, false);
-  const auto speed_at_the_top = [&] {  // of the marker highest in z
-    Eigen::Index top = 0;
-    simulation.membrane(0).positions().col(2).maxCoeff(&top);
-    return simulation.marker_velocity(0)(top, 0);
-  };
-  for (int i = 0; i < 12; ++i) simulation.step();
-  const double before = speed_at_the_top();
-  EXPECT_GT(before, 0.3);
-  for (int i = 0; i < 6; ++i) simulation.step();
-  EXPECT_NEAR(speed_at_the_top(), -before, 1e-3 * before);
 }
 
 }  // namespace
