@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "cost_model.h"
 #include "coupling/flow.h"
+#include "coupling/overlap.h"
 #include "coupling/simulation.h"
 #include "fluid/elliptic_solver.h"
+#include "initial_shape.h"
 #include "memory_plan.h"
 #include "vesicle/mesh_control.h"
 #include "viscosity_plan.h"
@@ -61,6 +64,59 @@ std::string mirrored_axes(const Scene& scene) {
   return text;
 }
 
+// Of the vesicle that has fewest. The delta function thickens the membrane by about 0.4 h (docs/coupling.md).
+void describe_cells_across(Plan& plan, const Scene& scene) {
+  constexpr double fewest = 8.0;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const VesicleScene& vesicle : scene.vesicles) smallest = std::min(smallest, vesicle.radius);
+  const double across = 2.0 * smallest / scene.spacing();
+  plan.line("cells across a vesicle", "{:.1f}{}", across,
+            across < fewest ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %" : "");
+}
+
+double wall_distance(const Scene& scene, const vesicle::VectorField& markers) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto u = static_cast<std::size_t>(axis);
+    if (scene.domain.periodic[u]) continue;
+    least = std::min(least, scene.domain.upper[u] - markers.col(axis).maxCoeff());
+    if (!scene.domain.mirror[u]) least = std::min(least, markers.col(axis).minCoeff() - scene.domain.lower[u]);
+  }
+  return least;
+}
+
+// Of the start, between membranes and to the walls.
+void describe_distances(Plan& plan, const Scene& scene) {
+  constexpr double resolved = 2.0;  // grid spacings
+  std::vector<vesicle::VectorField> markers;
+  std::vector<const vesicle::VectorField*> pointers;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
+  double to_walls = std::numeric_limits<double>::infinity();
+  for (const vesicle::VectorField& of_one : markers) {
+    pointers.push_back(&of_one);
+    to_walls = std::min(to_walls, wall_distance(scene, of_one));
+  }
+  const auto describe = [&](const char* label, double distance) {
+    const double in_spacings = distance / scene.spacing();
+    if (std::isfinite(distance))
+      plan.line(label, "{:.3g} at the start, {:.2g} h{}", distance, in_spacings,
+                in_spacings < resolved ? "  <- WARNING: the fluid in between is not resolved below 2 h" : "");
+  };
+  describe("between membranes", std::ranges::min(nearest_distances(grid_of(scene), pointers)));
+  describe("to the walls", to_walls);
+}
+
+bool has_unequal_spacings(const Scene& scene) {
+  constexpr double round_off = 1e-9;
+  return scene.finest_spacing() < (1.0 - round_off) * scene.spacing();
+}
+
+std::string describe_spacing(const Scene& scene) {
+  return has_unequal_spacings(scene) ? fmt::format("{:.4g} to {:.4g}", scene.finest_spacing(), scene.spacing())
+                                     : fmt::format("{:.4g}", scene.spacing());
+}
+
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -71,12 +127,14 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   }
   const MemoryPlan memory = plan_memory(scene);
   plan.head("Resolution");
-  plan.line("grid", "{} x {} x {} cells, spacing {:.4g}", c[0], c[1], c[2], h);
+  plan.line("grid", "{} x {} x {} cells, spacing {}", c[0], c[1], c[2], describe_spacing(scene));
   if (scene.domain.mirror != std::array<bool, 3>{})
     plan.line("planes of symmetry", "{}: the box is one side of them", mirrored_axes(scene));
   plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
+  describe_cells_across(plan, scene);
+  describe_distances(plan, scene);
   plan.line("time", "{}", describe_time(scene));
   constexpr double far = 10.0;
   const double longest = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
@@ -85,7 +143,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
               scene.time.adaptive       ? "; adaptive steps stay below it"
               : scene.time.step > limit ? "  <- WARNING: beyond it"
                                         : "");
-  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h); {}", scene.tension_number(), describe_stability(scene));
+  plan.line("tension number g", "{:.3g} = dt sigma0/(4 h){}; {}", scene.tension_number(),
+            has_unequal_spacings(scene) ? " of the finest h" : "", describe_stability(scene));
   plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f})",
             1e-6 * memory.total(), 1e-6 * memory.fluid, 1e-6 * memory.membranes, 1e-6 * memory.steps,
             1e-6 * memory.output);
@@ -205,7 +264,10 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(scene.membrane.area == vesicle::AreaControl::penalty, "area penalty",
             fmt::format("force with c_a = {:g}", scene.membrane.area_stiffness), "membrane.area is not \"penalty\"");
   plan.part(scene.membrane.volume == vesicle::VolumeControl::penalty, "volume penalty",
-            fmt::format("force with c_v = {:g}", scene.membrane.volume_stiffness),
+            fmt::format("force with c_v = {:g}{}", scene.membrane.volume_stiffness,
+                        scene.follows_shape() ? "  <- WARNING: explicit, unstable in the long steps of these markers: "
+                                                "take membrane.volume = \"projection\""
+                                              : ""),
             "membrane.volume is not \"penalty\"");
   describe_external_forces(plan, scene);
   plan.part(true, "spread, interpolate", describe_kernel(scene.coupling.kernel), "");

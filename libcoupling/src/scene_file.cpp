@@ -337,7 +337,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
   read_vesicles(document, scene, name);
 
   if (scene.membrane.g && document.find("membrane.sigma0") == nullptr)
-    scene.membrane.sigma0 = *scene.membrane.g * 4.0 * scene.spacing() / scene.time.step;
+    scene.membrane.sigma0 = *scene.membrane.g * 4.0 * scene.finest_spacing() / scene.time.step;
   for (VesicleScene& vesicle : scene.vesicles)
     if (vesicle.file) vesicle.file = absolute_file(*vesicle.file, name);
   load_surfaces(scene);

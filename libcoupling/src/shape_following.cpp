@@ -31,11 +31,13 @@ constexpr double gmres_tolerance = 1e-4, worst_residual = 1e-2;
 // Z over the rates of MembraneResponse, without inertia and where inertia dominates the response (seen by trial: 1.5 is unstable
 // there at Re = 1).
 constexpr double safety = 1.5, safety_with_inertia = 3.0;
-// More where part of the viscosity is explicit: 10 at ratio 20, where 3 is unstable at dt = 1/48, and 3 at ratio 5.
-constexpr double safety_per_ratio = 1.0;
-// Of what the explicit viscous term owes to velocities that the fluid never had. With all of it, fine grids are unstable at every ratio (128^3, reduced
-// volume 0.8 at ratio 20 and dt = 1/48; 0.9 at ratio 5 and dt = 1/24: noise grows by 1.3 in a step), with 1.3 of it at once, with half of it
-// coarse ones (64^3, ratio 20, dt = 1/24). A thin or pointed end has less of the inner fluid around it than the half that the model gives it.
+// More where part of the viscosity is explicit: 10 at ratio 20, where 3 is unstable at dt = 1/48, and 3 at ratio 5. Around a thin
+// fluid, 1.5 is unstable at ratio 0.05 with dt of 1/12 to 1/96 if it is extrapolated, 3 is quiet from 1/24 on, and 4.5 from 1/48.
+constexpr double safety_per_ratio = 1.0, safety_of_thin = 3.0;
+// Of what the explicit viscous term owes to velocities that the fluid never had. With all of it, fine grids are unstable
+// (128^3, reduced volume 0.8 at ratio 20 and dt = 1/48; 0.9 at ratio 5 and dt = 1/24: noise grows by 1.3 in a step), with 1.3
+// of it at once, with half of it coarse ones (64^3, ratio 20, dt = 1/24). A thin or pointed end has less of the inner fluid
+// around it than the half that the model gives it.
 constexpr double viscous_memory = 0.8;
 
 }  // namespace
@@ -61,7 +63,7 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
       extrapolates_viscosity_(scene.fluid.viscous_treatment == fluid::ViscousTreatment::extrapolated),
       keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
       harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
-      response_(harmonics_.degrees(), radius_, scene.spacing(),
+      response_(harmonics_.degrees(), radius_, scene.finest_spacing(),
                 scene.coupling.thickness_correction ? 0.0 : smoothed4_second_moment),
       operator_([this](const Gmres::Vector& x, Gmres::Vector& result) { apply_operator(x, result); }),
       stiffness_(static_cast<std::size_t>(harmonics_.degrees())) {
@@ -83,6 +85,9 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
     for (std::size_t i = 0; i < scene.vesicles.size(); ++i) largest = std::max(largest, scene.viscosity_ratio(i));
     explicit_viscosity_ = largest - solved_viscosity_;
     solved_viscosity_ = largest;
+    const double share = explicit_viscosity_ / solved_viscosity_;
+    lagging_viscosity_ = safety_per_ratio * share * (solved_viscosity_ - 1.0);
+    if (extrapolates_viscosity_ && scene.viscosity_ratio(number) < 1.0) lagging_viscosity_ += safety_of_thin * share;
   }
   vesicle::Conserved conserved;
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
@@ -204,8 +209,7 @@ void ShapeFollowing::find_rates(const Surface& surface) {
 
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
   const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
-  const double viscosity = has_inertia_ ? explicit_viscosity_ / solved_viscosity_ * (solved_viscosity_ - 1.0) : 0.0;
-  const double lagging = safety + (safety_with_inertia - safety) * inertia + safety_per_ratio * viscosity;
+  const double lagging = safety + (safety_with_inertia - safety) * inertia + lagging_viscosity_;
   const double c = overestimate_.value_or(lagging);
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
   double variance = 0.0;

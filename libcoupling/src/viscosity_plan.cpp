@@ -68,8 +68,16 @@ std::string describe_treatment(const Scene& scene, double least, double greatest
       return fmt::format(
           "explicit (paper): {:g} Lap u* + div((mu - {:g})(grad u + grad u^T)), an error of ratio x step", greatest,
           greatest);
-    case ViscousTreatment::implicit:
-      return "implicit: all three components in one solve";
+    case ViscousTreatment::implicit: {
+      constexpr double largest_contrast = 5.0;  // docs/stability.md: quiet there, while steps of 1/24 blow up at 20
+      const bool is_risky = scene.time.markers == "shape_following" && greatest / least > largest_contrast;
+      return fmt::format("implicit: all three components in one solve{}",
+                         is_risky
+                             ? "; <- WARNING: unstable with time.markers = \"shape_following\" at this contrast but "
+                               "for short steps: take time.markers = \"implicit\", or "
+                               "fluid.viscous_treatment = \"extrapolated\""
+                             : "");
+    }
     case ViscousTreatment::extrapolated:
       break;
   }

@@ -23,12 +23,14 @@ STORE = ROOT / "out" / "validation"
 
 @dataclasses.dataclass(frozen=True)
 class Run:
-    """name: within its case. keys: as for --set. Checkpoints (the whole state in double precision) are large and kept where asked for."""
+    """name: within its case. keys: as for --set. Checkpoints (the whole state in double precision) are large and kept where asked for.
+    store: where its folder is."""
 
     name: str
     scene: str
     keys: dict
     keep_checkpoint: bool = False
+    store: pathlib.Path = STORE
 
     def settings(self):
         return [f"{key}={_text(value)}" for key, value in sorted(self.keys.items())]
@@ -37,7 +39,7 @@ class Run:
         lines = (line.split("#")[0].strip() for line in (ROOT / self.scene).read_text().splitlines())
         identity = "\n".join([*filter(None, lines), *self.settings()])
         digest = hashlib.sha1(identity.encode()).hexdigest()[:10]
-        return STORE / f"{pathlib.Path(self.scene).stem}-{digest}"
+        return self.store / f"{pathlib.Path(self.scene).stem}-{digest}"
 
     def command(self, program):
         """What a user types."""
@@ -109,14 +111,16 @@ def execute(run, program, report):
 
 
 def _wait(process, tick):
-    """Until the process ends; its processor seconds."""
+    """Until the process ends; its processor seconds. Short runs are looked at often."""
+    pause = 0.01
     while True:
         ended, status, usage = os.wait4(process.pid, os.WNOHANG)
         if ended:
             process.returncode = os.waitstatus_to_exitcode(status)
             return usage.ru_utime + usage.ru_stime
         tick()
-        time.sleep(0.2)
+        time.sleep(pause)
+        pause = min(0.2, 1.2 * pause)
 
 
 def _record(folder):

@@ -164,13 +164,15 @@ struct Scene {
   double spontaneous_curvature(std::size_t i) const;
   int latitudes(std::size_t i) const;
 
-  /// Largest grid spacing.
+  /// Largest grid spacing: what the grid resolves.
   double spacing() const;
+  /// Smallest grid spacing: a delta function of that width answers most to forces, and so decides what is stable.
+  double finest_spacing() const;
   /// g = dt sigma0/(4 mu h), the number that decides whether the explicit tension is stable (below 7 to 8), of the stiffest
-  /// vesicle.
+  /// vesicle and the finest spacing.
   double tension_number() const;
-  /// The largest g for which time.markers is stable, cautiously: 7, (2 - a)/a times that with strain relaxation, and infinity
-  /// with shape_following and implicit.
+  /// The largest g for which time.markers is stable, cautiously: 7, or 2 with the correction of the thickness, half of it for ab2,
+  /// (2 - a)/a times it with strain relaxation, and infinity with shape_following and implicit.
   double stable_tension_number() const;
   /// lambda = mu_i/mu_o of a vesicle: its own, or else that of the fluid.
   double viscosity_ratio(std::size_t vesicle) const;

@@ -1,0 +1,114 @@
+// Starts and flows that a user should not choose: right, refused, or warned of in the plan, but never silently wrong.
+// validation/hostile_starts.py has those that take longer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "coupling/errors.h"
+#include "coupling/plan.h"
+#include "coupling/simulation.h"
+#include "small_scene.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+bool plan_says(const Overrides& overrides, const char* part) {
+  return describe_plan(small_scene(overrides), 1).find(part) != std::string::npos;
+}
+
+VesicleScene sphere_of(double radius) {
+  VesicleScene sphere;
+  sphere.shape = Shape::sphere;
+  sphere.radius = radius;
+  return sphere;
+}
+
+Scene pair_at(double distance) {
+  Scene scene = small_scene({"domain.cells=32"});
+  scene.vesicles[0] = sphere_of(0.7);
+  scene.vesicles.push_back(scene.vesicles[0]);
+  scene.vesicles[0].centre = {-0.7 - 0.5 * distance, 0, 0};
+  scene.vesicles[1].centre = {0.7 + 0.5 * distance, 0, 0};
+  return scene;
+}
+
+TEST(HostileStarts, PlanWarnsOfFewCellsAcrossAVesicle) {
+  const char* warning = "below 8 its frequency";
+  EXPECT_FALSE(plan_says({"time.markers=shape_following"}, warning));  // 8 cells
+  EXPECT_TRUE(plan_says({"time.markers=shape_following", "domain.cells=12"}, warning));
+  EXPECT_TRUE(plan_says({"time.markers=shape_following", "domain.cells=[24, 24, 12]"}, warning));
+  EXPECT_TRUE(plan_says({"time.markers=shape_following", "vesicles.0.radius=0.4"}, warning));
+}
+
+TEST(HostileStarts, PlanWarnsOfMembranesNearEachOtherAndNearWalls) {
+  const auto warns = [](const Scene& scene) {
+    return describe_plan(scene, 1).find("is not resolved below 2 h") != std::string::npos;
+  };
+  EXPECT_FALSE(warns(pair_at(0.45)));
+  EXPECT_TRUE(warns(pair_at(0.3)));                                                         // h = 0.1875
+  EXPECT_FALSE(plan_says({"vesicles.0.centre=[0, 1.4, 0]"}, "is not resolved below 2 h"));  // y semi-axis 0.83: 3 h
+  EXPECT_TRUE(plan_says({"vesicles.0.centre=[0, 1.75, 0]"}, "is not resolved below 2 h"));
+  EXPECT_THROW(small_scene({"vesicles.0.centre=[0, 1.9, 0]"}), SceneError);
+}
+
+// The delta function answers most where it is narrow: g is that of the finest spacing, along whichever axis.
+TEST(HostileStarts, TensionNumberIsOfTheFinestSpacing) {
+  for (const char* cells : {"domain.cells=[48, 24, 24]", "domain.cells=[24, 48, 24]", "domain.cells=[24, 24, 48]"}) {
+    const Scene scene = small_scene({"membrane.g=2", cells});
+    EXPECT_DOUBLE_EQ(scene.finest_spacing(), 0.125);
+    EXPECT_DOUBLE_EQ(scene.spacing(), 0.25);
+    EXPECT_NEAR(scene.membrane.sigma0, 2.0 * 4 * 0.125 * 96, 1e-9);
+    EXPECT_NEAR(scene.tension_number(), 2.0, 1e-12);
+  }
+  EXPECT_TRUE(plan_says({"membrane.g=2", "domain.cells=[48, 24, 24]"}, "spacing 0.125 to 0.25"));
+}
+
+// With spacings of 1 : 4 the estimate of the answer by the largest spacing was too small by four: noise of 40 shear rates, and no word of it.
+TEST(HostileStarts, ShapeFollowingIsQuietOnUnequalSpacings) {
+  const auto divergence = [](const char* cells) {
+    Scene scene = small_scene({"domain.lower=[-3, -2, -2]", "domain.upper=[3, 2, 2]", cells,
+                               "time.markers=shape_following", "time.step=1/24", "time.end=2"});
+    scene.membrane.sigma0 = 2000;
+    Simulation simulation(scene);
+    while (!simulation.finished()) simulation.step();
+    return simulation.measure()[0].surface_divergence_max;
+  };
+  EXPECT_LT(divergence("domain.cells=[48, 8, 8]"), 0.5);
+}
+
+// Adams-Bashforth is stable on half of Euler's real interval, and a thin membrane answers faster than a thick one.
+TEST(HostileStarts, StableTensionNumberKnowsTheIntegrator) {
+  const auto limit = [](const Overrides& overrides) { return small_scene(overrides).stable_tension_number(); };
+  EXPECT_EQ(limit({"membrane.g=2"}), 7.0);
+  EXPECT_EQ(limit({"membrane.g=2", "time.markers=ab2"}), 3.5);
+  EXPECT_EQ(limit({"membrane.g=2", "coupling.thickness_correction=true"}), 2.0);
+  EXPECT_EQ(limit({"membrane.g=2", "time.markers=strain_relaxation"}), 49.0);
+  EXPECT_TRUE(plan_says({"membrane.g=4", "time.markers=ab2"}, "stable below about 3.5  <- WARNING: beyond it"));
+  EXPECT_THROW(small_scene({"membrane.g=8.5", "time.markers=ab2"}), SceneError);
+}
+
+TEST(HostileStarts, PlanWarnsOfAnImplicitContrastWithShapeFollowing) {
+  const auto warns = [](const char* ratio, const char* markers) {
+    return plan_says({"fluid.viscous_treatment=implicit", std::string("fluid.viscosity_ratio=") + ratio,
+                      std::string("time.markers=") + markers},
+                     "at this contrast");
+  };
+  EXPECT_TRUE(warns("20", "shape_following"));
+  EXPECT_TRUE(warns("0.05", "shape_following"));
+  EXPECT_FALSE(warns("5", "shape_following"));
+  EXPECT_FALSE(warns("20", "euler"));
+}
+
+// A vesicle that is 20 times thinner than the fluid around it: the viscosity that is extrapolated made waves of its membrane grow.
+TEST(HostileStarts, AThinFluidInsideIsQuiet) {
+  Scene scene =
+      small_scene({"fluid.viscosity_ratio=0.05", "time.markers=shape_following", "time.step=1/24", "time.end=4",
+                   "domain.lower=[-3, 0, -3]", "domain.cells=[24, 12, 24]", "domain.mirror=[false, true, false]"});
+  scene.membrane.sigma0 = 2000;
+  Simulation simulation(scene);
+  while (!simulation.finished()) simulation.step();
+  EXPECT_LT(simulation.measure()[0].surface_divergence_max, 0.1);
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling
