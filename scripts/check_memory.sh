@@ -8,7 +8,8 @@ cmake --build build/valgrind --target vesicles
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-export OMP_NUM_THREADS=1
+# With these set the program does not start itself again, which valgrind cannot follow.
+export OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive OPENBLAS_NUM_THREADS=1
 check() {
   valgrind --quiet --error-exitcode=1 --leak-check=full --show-leak-kinds=definite,indirect,possible \
     --errors-for-leak-kinds=definite,indirect,possible --suppressions=tests/sanitizers/valgrind.supp \
