@@ -53,7 +53,7 @@ void ImplicitMotion::advance(double dt, const VelocityAt& velocity_at, vesicle::
                              MarkerVelocities& velocities) {
   const Surface& surface = membrane.surface();
   velocity_at(surface.positions(), velocities.fluid);
-  find_mesh_velocity(surface, velocities);
+  find_mesh_velocity(dt, surface, velocities);
   velocities.membrane = velocity_;
   find_rates(surface);
   if (!has_stiffness_) {

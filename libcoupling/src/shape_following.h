@@ -14,8 +14,10 @@ namespace vesiflow::coupling {
 /// time.markers = "shape_following": a mesh that follows the shape of the vesicle and not its material, with the area strain
 /// s = ln(dA/dA0) as a field on it. With U the fluid velocity at the membrane and V + Omega x r the rigid motion of its shape
 /// (vesicle/rigid_motion.h), the mesh moves with W and the membrane slips over it with w:
-///   dX/dt = W = (n.U) n + P (V + Omega x r),   ds/dt = div U - w.grad s,   w = U - W,   P = I - n n^T.
-/// In tank-treading the mesh then stands still and nothing at all changes: steady states do not depend on the time step.
+///   dX/dt = W = (n.U) n + P (V + Omega x r + lambda d),   ds/dt = div U - w.grad s,   w = U - W,   P = I - n n^T.
+/// In tank-treading the mesh then stands still and nothing at all changes: steady states do not depend on the time step. d leads along the
+/// membrane down the mesh energy of vesicle/redistribution.h: without it a vesicle that changes its shape presses markers together, and waves
+/// that are short for the fluid's grid and long for the mesh grow (relax_mesh).
 ///
 /// A step is BDF2 in the increments d = y^{k+1} - y^k of y = (X, s), forces and velocities being taken at the extrapolated state
 /// y* = y^k + r d^k (r = dt over the last dt; a0, a1 the coefficients of BDF2), with a linearly implicit correction:
@@ -66,7 +68,8 @@ class ShapeFollowing : public MembraneMotion {
   double step_ratio(double dt) const { return previous_dt_ > 0.0 ? dt / previous_dt_ : 0.0; }
 
   void start(vesicle::Membrane& membrane);
-  void find_mesh_velocity(const vesicle::Surface& surface, const MarkerVelocities& velocities);
+  void find_mesh_velocity(double dt, const vesicle::Surface& surface, const MarkerVelocities& velocities);
+  void relax_mesh(double dt, const vesicle::Surface& surface);
   void find_rates(const vesicle::Surface& surface);
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);

@@ -23,10 +23,6 @@ constexpr int halvings = 6;
 /// Keeps w finite where E does not see it; small beside a_2 = 24.
 constexpr double damping = 1;
 
-double weight(int n) {
-  return (n - 1.0) * n * (n + 1.0) * (n + 2.0);
-}
-
 VectorField unit_sphere(const SphereGrid& grid) {
   VectorField x(grid.size(), 3);
   for (int j = 0; j < grid.latitudes(); ++j)
@@ -43,6 +39,11 @@ void normalise(VectorField& field) {
 
 }  // namespace
 
+double mesh_energy_weight(int degree) {
+  const double n = degree;
+  return (n - 1.0) * n * (n + 1.0) * (n + 2.0);
+}
+
 MeshRedistribution::MeshRedistribution(int latitudes, int kept_degrees)
     : surface_(latitudes), smoothing_(two_thirds_degrees(latitudes), surface_.grid()), evaluation_(latitudes) {
   check_argument(kept_degrees >= 0 && kept_degrees <= latitudes, "kept_degrees", kept_degrees, "in [0, latitudes]");
@@ -57,7 +58,7 @@ MeshRedistribution::MeshRedistribution(int latitudes, int kept_degrees)
 double MeshRedistribution::energy() const {
   double sum = 0;
   const Coefficients& c = surface_.position_coefficients();
-  for (int n = 2; n < c.degrees(); ++n) sum += weight(n) * c.energy(n, n + 1);
+  for (int n = 2; n < c.degrees(); ++n) sum += mesh_energy_weight(n) * c.energy(n, n + 1);
   return sum / 2;
 }
 
@@ -73,7 +74,7 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
   // E of positions that are a linear image of the sphere but for their rounding.
   constexpr double rounding = 1e-14;
   const int highest = original.degrees() - 1;
-  const double round_off = rounding * rounding * weight(highest) * original.energy(1, highest + 1);
+  const double round_off = rounding * rounding * mesh_energy_weight(highest) * original.energy(1, highest + 1);
   while (report.iterations < max_iterations && last > round_off) {
     find_displacement();
     pull_back();
@@ -110,7 +111,7 @@ void MeshRedistribution::project(VectorField& field) const {
 void MeshRedistribution::weigh(const VectorField& field, bool inverse, VectorField& result) {
   surface_.harmonics().analysis(field, coefficients_);
   for (int n = 0; n < coefficients_.degrees(); ++n) {
-    const double factor = inverse ? 1 / (std::max(weight(n), 0.0) + damping) : std::max(weight(n), 0.0);
+    const double factor = inverse ? 1 / (mesh_energy_weight(n) + damping) : mesh_energy_weight(n);
     for (int m = 0; m <= n; ++m)
       for (int f = 0; f < 3; ++f) coefficients_(f, n, m) *= factor;
   }

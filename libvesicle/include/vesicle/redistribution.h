@@ -30,6 +30,9 @@ struct RedistributionReport {
   double truncation = 0;  ///< greatest distance by which keeping fewer degrees took a marker off the old surface
 };
 
+/// a_n of the mesh energy below, for degree n >= 0 (0 for n = 0 and 1).
+double mesh_energy_weight(int degree);
+
 /// Moves the markers of a mesh along its surface, leaving the shape alone: the surface X(x), x on the unit sphere, becomes
 /// X(y(x)) with y a smooth one-to-one map of the sphere chosen to minimise
 ///   E = 1/2 sum_{n,m} a_n |X_n^m|^2,  a_n = (n - 1) n (n + 1) (n + 2) = (Lap + 2) Lap,
@@ -37,7 +40,7 @@ struct RedistributionReport {
 /// the shape needs the fewest degrees. (Rahimian, Veerapaneni, Zorin & Biros, J. Comput. Phys. 298 (2015) 766, move markers by
 /// pseudo-time steps down such an energy; here by Gauss-Newton steps.)
 ///
-/// One step finds the tangential displacement w that minimises E to second order,
+/// a_n is mesh_energy_weight(n). One step finds the tangential displacement w that minimises E to second order,
 ///   P (A + mu) P w = -P A X,  A = diag(a_n), P = I - n n^T,
 /// by a few preconditioned conjugate gradients, pulls it back to the sphere and moves y, with step halving until E falls and the
 /// Jacobian of y stays positive. Markers are always the original expansion evaluated at y (PointEvaluation), so they
