@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "accuracy.h"
 #include "cost_model.h"
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
@@ -249,6 +250,8 @@ void describe_step(Plan& plan, const Scene& scene) {
   const int normal =
       scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(scene.latitudes(0));
   plan.head("Each step");
+  plan.part(scene.method.accuracy != Accuracy::as_given, "accuracy", describe_accuracy(scene),
+            "method.accuracy = \"as_given\"");
   plan.part(true, "geometry", "spherical harmonics, as many degrees as latitudes", "");
   plan.part(true, "bending", describe_bending(scene), "");
   plan.part(

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "accuracy.h"
 #include "coupling/errors.h"
 #include "coupling/flow.h"
 #include "coupling/marker_integrator.h"
@@ -367,6 +368,7 @@ long Scene::steps() const {
 
 void check_scene(const Scene& scene, const std::string& name) {
   check_domain(scene, name);
+  check_accuracy(scene, name);
   check_physics(scene, name);
   check_tension(scene, name);
   check_time(scene, name);

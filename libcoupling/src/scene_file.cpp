@@ -10,6 +10,7 @@
 #include <set>
 #include <sstream>
 
+#include "accuracy.h"
 #include "coupling/errors.h"
 #include "coupling/scene.h"
 #include "initial_shape.h"
@@ -202,8 +203,14 @@ class Reader final : public KeyVisitor {
   void choice(std::string_view key, int& value, std::span<const std::string_view> names) override {
     const toml::node* node = find(key);
     if (node == nullptr) return;
-    const std::string given = node->is_string() ? node->as_string()->get() : "";
-    const auto found = std::ranges::find(names, given);
+    // Names that are numbers may be given as such: upsampling = 1.5 for "1.5".
+    const auto is_given = [&](std::string_view name) {
+      if (!node->is_number()) return node->is_string() && name == node->as_string()->get();
+      char* end = nullptr;
+      const std::string text(name);
+      return std::strtod(text.c_str(), &end) == to_number(*node) && *end == '\0';
+    };
+    const auto found = std::ranges::find_if(names, is_given);
     if (found == names.end()) refuse(key, *node, fmt::format("allowed are {}", fmt::join(names, ", ")));
     value = static_cast<int>(found - names.begin());
   }
@@ -335,6 +342,11 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
   visit_keys(scene, reader);
   refuse_unknown(document, document.root(), "", known);
   read_vesicles(document, scene, name);
+  if (scene.method.accuracy != Accuracy::as_given) {
+    check_accuracy(scene, name);
+    apply_accuracy(scene);
+    visit_keys(scene, reader);  // keys that are given win
+  }
 
   if (scene.membrane.g && document.find("membrane.sigma0") == nullptr)
     scene.membrane.sigma0 = *scene.membrane.g * 4.0 * scene.finest_spacing() / scene.time.step;

@@ -50,6 +50,7 @@ std::string Range::describe() const {
 
 void visit_preset(Scene& scene, KeyVisitor& v) {
   choice_of(v, "method.preset", scene.method.preset, {"standard", "paper"});
+  choice_of(v, "method.accuracy", scene.method.accuracy, {"as_given", "1e-2", "1e-3", "1e-4"});
 }
 
 void apply_preset(Scene& scene) {

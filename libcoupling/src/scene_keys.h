@@ -59,7 +59,7 @@ class KeyVisitor {
 void visit_keys(Scene& scene, KeyVisitor& visitor);
 /// Visits the keys of one vesicle, without the leading `vesicles.N.`.
 void visit_keys(VesicleScene& vesicle, KeyVisitor& visitor);
-/// Only `method.preset`, which decides the defaults of other keys and so is read first.
+/// Only the keys of `method`, which decide the defaults of other keys and so are read first.
 void visit_preset(Scene& scene, KeyVisitor& visitor);
 /// Sets the defaults of the scene's preset.
 void apply_preset(Scene& scene);

@@ -8,6 +8,7 @@
 
 #include "coupling/errors.h"
 #include "coupling/marker_integrator.h"
+#include "coupling/plan.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -49,6 +50,45 @@ TEST(Scene, PresetSetsDefaultsThatKeysStillOverride) {
   EXPECT_EQ(paper.membrane.volume, vesicle::VolumeControl::none);
   EXPECT_EQ(parse(sphere, {"method.preset=paper"}).membrane.volume, vesicle::VolumeControl::penalty);
   EXPECT_EQ(parse(sphere).membrane.volume, vesicle::VolumeControl::projection);
+}
+
+TEST(Scene, AccuracyChoosesGridMeshAndStep) {
+  const std::string box = "[domain]\nlower = [-4, 0, -4]\nupper = [4, 4, 4]\n", small = sphere + "radius = 0.5\n";
+  const Scene scene =
+      parse("[method]\naccuracy = \"1e-2\"\n[flow]\nrate = 2\n" + box + sphere + "centre = [0, 2, 0]\n");
+  EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{64, 32, 64}));  // h = R/8
+  EXPECT_EQ(scene.mesh.latitudes, 40);
+  EXPECT_EQ(scene.time.step, 1.0 / 96.0);
+  EXPECT_TRUE(scene.coupling.thickness_correction);
+  EXPECT_EQ(parse(to_toml(scene)).time.step, scene.time.step);
+  // The smallest vesicle decides on the grid, the softest time scale of a stiff membrane on the step.
+  EXPECT_EQ(
+      parse(small, {"method.accuracy=1e-2", "domain.lower=[-4, -4, -4]", "domain.upper=[4, 4, 4.5]"}).domain.cells,
+      (std::array<int, 3>{128, 128, 144}));  // 136 has the factor 17
+  EXPECT_EQ(parse(sphere, {"method.accuracy=1e-2", "membrane.capillary_number=0.5"}).time.step, 1.0 / 96.0);
+}
+
+TEST(Scene, GivenKeysWinOverTheAccuracyAndAreSaidToSpoilIt) {
+  const Scene coarse =
+      parse(sphere, {"method.accuracy=1e-2", "domain.cells=48", "time.step=1/24", "mesh.latitudes=32"});
+  EXPECT_EQ(coarse.domain.cells, (std::array<int, 3>{48, 48, 48}));
+  EXPECT_EQ(coarse.time.step, 1.0 / 24.0);
+  expect_parts(describe_plan(coarse, 1),
+               {"not met for certain", "domain.cells below 96", "fewer than 40", "time.step above 1/48"});
+  EXPECT_EQ(describe_plan(parse(sphere, {"method.accuracy=1e-2"}), 1).find("not met"), std::string::npos);
+}
+
+TEST(Scene, AccuracyIsRefusedWhereNoSettingsAreKnown) {
+  expect_parts(message_of(sphere, {"method.accuracy=1e-4"}), {"1e-4", "no settings are known"});
+  expect_parts(message_of(sphere, {"method.accuracy=1e-2", "fluid.viscosity_ratio=5"}), {"1e-2", "viscosity ratio"});
+  expect_parts(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=1"}),
+               {"1e-3", "reynolds_number = 1"});
+  expect_parts(message_of(sphere, {"method.accuracy=1e-2", "method.preset=paper"}), {"1e-2", "paper"});
+  expect_parts(message_of(sphere, {"method.accuracy=0.5"}), {"0.5", "1e-2"});
+}
+
+TEST(Scene, NamesThatAreNumbersMayBeGivenAsNumbers) {
+  EXPECT_EQ(parse(sphere, {"membrane.upsampling=1.5"}).membrane.upsampling, vesicle::Upsampling::three_halves);
 }
 
 TEST(Scene, VesiclesMayHaveAViscosityRatioOfTheirOwn) {

@@ -18,6 +18,8 @@
 namespace vesiflow::coupling {
 
 enum class Preset { standard, paper };
+/// A target for the largest relative error, from which grid, mesh and step follow.
+enum class Accuracy { as_given, per_cent, per_mille, tenth_per_mille };
 enum class FlowType { rest, shear, oscillating_shear, extension, plane_poiseuille, duct, custom };
 enum class Extension { planar, uniaxial };
 enum class FlowStart { flow, rest };
@@ -62,6 +64,7 @@ struct Scene {
   std::string title;
   struct Method {
     Preset preset = Preset::standard;
+    Accuracy accuracy = Accuracy::as_given;
   } method;
   struct Domain {
     std::array<double, 3> lower{-6.0, -6.0, -6.0};
