@@ -70,7 +70,8 @@ class Case:
 
 SHORT = {"mesh.latitudes": "{} lat", "time.step": "dt {}", "time.markers": "{}",
          "membrane.sigma0": "sigma0 {}", "fluid.viscous_treatment": "{} viscosity", "fluid.inertia": "inertia {}", "coupling.kernel": "{}",
-         "fluid.velocity_solver": "{}", "membrane.integral_rate": "r {}", "time.tolerance": "tol {}", "time.implicit_tolerance": "to {}", "method.preset": "{} preset"}
+         "fluid.velocity_solver": "{}", "membrane.integral_rate": "r {}", "time.tolerance": "tol {}", "time.implicit_tolerance": "to {}", "method.preset": "{} preset",
+         "method.accuracy": "accuracy {}"}
 
 
 USUAL = {"time.markers": "shape_following", "fluid.viscous_treatment": "extrapolated", "coupling.kernel": "smoothed4"}
@@ -263,12 +264,12 @@ def extension_case(quick):
     """Not a sweep: the settings that the others recommend, on a scene that was not used to find them."""
     width = 8.0
     sweeps = [("recommended", "level", {"cells": n, "mesh.latitudes": lat, "time.step": f"1/{step}"} | CORRECTED)
-              for n, lat, step in ((32, 16, 24), (32, 24, 24), (48, 24, 24), (64, 32, 24), (64, 40, 48), (96, 48, 48))]
+              for n, lat, step in ((32, 16, 24), (32, 24, 24), (48, 24, 24), (64, 32, 24), (64, 40, 48), (64, 40, 96), (96, 48, 48), (96, 64, 96), (96, 64, 192))]
     sweeps += [("plain", "grid", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": "1/24"} | PLAIN) for n in (32, 64)]
     fine = {"mesh.latitudes": 40 if quick else 64, "time.step": "1/48" if quick else "1/96"}
     grids = (96, 64, 48) if quick else (160, 128, 96)
     return Case(
-        "extension", "not used in the choice: reduced volume 0.85 turned by planar extension, to t = 3, Re = 1e-3", "scenes/extension.toml",
+        "extension", "reduced volume 0.85 turned by planar extension, to t = 3, Re = 1e-3", "scenes/extension.toml",
         {"domain.lower": [-4, 0, -4], "domain.mirror": [False, True, False], "vesicles.0.reduced_volume": 0.85, "time.markers": "shape_following",
          "membrane.sigma0": 9000, "time.end": 3, "output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.fluid_every": 0,
          "output.checkpoint_every": 2},
@@ -280,6 +281,24 @@ def extension_case(quick):
         {"angle": "inclination_angle_deg", "deformation": "deformation"}, 0.25, width, (1, 0.5, 1))
 
 
+def unseen_case(quick):
+    """What method.accuracy chooses, on a scene that was not used to choose it."""
+    width = 8.0
+    sweeps = [(f"accuracy {level}", "level", {"cells": n, "method.accuracy": level}) for n, level in ((64, "1e-2"), (96, "1e-3"))[:1 if quick else 2]]
+    sweeps += [("plain", "grid", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": "1/24"} | PLAIN) for n in (32, 64)]
+    fine = {"mesh.latitudes": 40 if quick else 64, "time.step": "1/48" if quick else "1/96"}
+    grids = (96, 64, 48) if quick else (160, 128, 96)
+    return Case(
+        "unseen", "not used in the choice: reduced volume 0.8, Ca = 1, off the axis of plane Poiseuille flow, to t = 6", "scenes/poiseuille_off_axis.toml",
+        {"time.end": 6, "output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2},
+        sweeps, finest("finest grid, corrected", grids[0], fine | CORRECTED),
+        [finest("next finest, corrected", grids[1], fine | CORRECTED),
+         estimate("extrapolated from three grids, plain", width, grids, fine | PLAIN)],
+        [("time step", {"cells": 48, "mesh.latitudes": 24, "time.step": fine["time.step"]} | CORRECTED,
+          {"cells": 48, "mesh.latitudes": 24, "time.step": "1/192"} | CORRECTED)],
+        {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, 0.25, width, (1, 0.5, 1))
+
+
 BUILDERS = {
     "tank_treading": shear_case,
     "ratio_5": lambda quick: contrast_case("ratio_5", 5, 70, 4 if quick else 6, 3.0 if quick else 5.0, quick,
@@ -289,6 +308,7 @@ BUILDERS = {
     "relaxation": relaxation_case,
     "duct": duct_case,
     "extension": extension_case,
+    "unseen": unseen_case,
 }
 
 

@@ -70,6 +70,7 @@ class ShapeFollowing : public MembraneMotion {
   void start(vesicle::Membrane& membrane);
   void find_mesh_velocity(double dt, const vesicle::Surface& surface, const MarkerVelocities& velocities);
   void relax_mesh(double dt, const vesicle::Surface& surface);
+  double greatest_compression(const vesicle::Surface& surface) const;
   void find_rates(const vesicle::Surface& surface);
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
@@ -88,7 +89,7 @@ class ShapeFollowing : public MembraneMotion {
   std::optional<double> overestimate_;  // Z over the rates of MembraneResponse, if not what a step with a lag needs
   double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
   double lagging_viscosity_ = 0.0;                // what the explicit term adds to the overestimate
-  bool has_inertia_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
+  bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
   vesicle::SphericalHarmonics harmonics_;
   MembraneResponse response_;
   std::optional<vesicle::ConservationProjection> volume_and_area_, volume_;

@@ -69,6 +69,21 @@ void ShapeFollowing::find_mesh_velocity(double dt, const Surface& surface, const
   relax_mesh(dt, surface);
 }
 
+// The greatest ratio of a length on the sphere of the same area to that of its image on the membrane, along the coordinates; at least 1.
+double ShapeFollowing::greatest_compression(const Surface& surface) const {
+  const vesicle::SphereGrid& grid = surface.grid();
+  double largest = 0.0;
+  for (int j = 0; j < grid.latitudes(); ++j) {
+    const double sine = grid.sin_colatitude()[j];
+    for (int i = 0; i < grid.longitudes(); ++i) {
+      const Eigen::Index m = grid.index(i, j);
+      largest = std::max({largest, surface.geometry().dual_theta().row(m).square().sum(),
+                          surface.geometry().dual_phi().row(m).square().sum() * sine * sine});
+    }
+  }
+  return std::max(1.0, radius_ * std::sqrt(largest));
+}
+
 // The direction is that of steepest descent of the mesh energy in the norm of its own second derivative, so that all degrees relax at about the same
 // rate. Degrees 0 and 1 have no weight of their own in it and take that of degree 2, the lowest that they meet there.
 void ShapeFollowing::relax_mesh(double dt, const Surface& surface) {
