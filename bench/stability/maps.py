@@ -110,7 +110,8 @@ SHAPES = Map(
     lambda start, volume, ca: ROOMY | {"vesicles.0.reduced_volume": volume, "membrane.capillary_number": ca, "time.step": "1/24", "membrane.sigma0": 2000,
                                        "vesicles.0.rotation_deg": 0 if start == "from across the flow" else 63},
     lambda start, volume, ca: None,
-    lambda start, volume, ca, convection: volume >= 0.7, "docs/time_integration.md: to a reduced volume of 0.7 from a start across the flow")
+    lambda start, volume, ca, convection: volume >= 0.7 and 1 / 24 <= ca / 2 and (ca < 10 or volume >= 0.9),
+    "docs/time_integration.md: to a reduced volume of 0.7, steps of at most Ca/2, below Ca = 10 where the reduced volume is below 0.9")
 
 
 def _contrast_keys(how, dt, ratio):

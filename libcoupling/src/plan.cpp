@@ -181,6 +181,14 @@ std::string describe_bending(const Scene& scene) {
                   grids[static_cast<std::size_t>(scene.membrane.upsampling)]);
   if (scene.membrane.spontaneous_curvature != 0.0)
     text += fmt::format(", spontaneous curvature {:g}", scene.membrane.spontaneous_curvature);
+  // Speeds of about 1/Ca where a shape is far from rest; docs/stability.md, reduced volume and capillary number.
+  double stiffest = scene.membrane.capillary_number;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, scene.capillary_number(i));
+  if (scene.time.step > 0.5 * stiffest && !scene.time.adaptive)
+    text += fmt::format(
+        "  <- WARNING: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g} or time.adaptive = "
+        "true",
+        0.5 * stiffest);
   return text;
 }
 

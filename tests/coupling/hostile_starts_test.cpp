@@ -40,6 +40,13 @@ TEST(HostileStarts, PlanWarnsOfFewCellsAcrossAVesicle) {
   EXPECT_TRUE(plan_says({"time.markers=shape_following", "vesicles.0.radius=0.4"}, warning));
 }
 
+TEST(HostileStarts, PlanWarnsOfStiffMembranesInLongSteps) {
+  const char* warning = "relaxes at a rate of 1/Ca";
+  EXPECT_TRUE(plan_says({"membrane.capillary_number=0.015"}, warning));  // steps of 1/96
+  EXPECT_FALSE(plan_says({"membrane.capillary_number=0.03"}, warning));
+  EXPECT_FALSE(plan_says({"membrane.capillary_number=0.015", "time.adaptive=true"}, warning));
+}
+
 TEST(HostileStarts, PlanWarnsOfMembranesNearEachOtherAndNearWalls) {
   const auto warns = [](const Scene& scene) {
     return describe_plan(scene, 1).find("is not resolved below 2 h") != std::string::npos;
