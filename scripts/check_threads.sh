@@ -11,7 +11,7 @@ targets=(vesicles fluid_tests)
 cmake --preset tsan >/dev/null
 cmake --build build/tsan --target "${targets[@]}"
 
-archer=$(clang++ -print-file-name=libarcher.so)
+archer=$(clang++ -print-resource-dir)/../../libarcher.so
 [[ -e $archer ]] || { echo "libarcher.so is missing: install clang's OpenMP (Debian: libomp-dev)" >&2; exit 1; }
 export OMP_NUM_THREADS=2 OMP_TOOL_LIBRARIES="$archer"
 export TSAN_OPTIONS="ignore_noninstrumented_modules=1 halt_on_error=0 exitcode=66"

@@ -22,7 +22,7 @@ constexpr double smallest_capillary_number = 0.5;        // that was verified
 constexpr double smallest_reduced_volume = 0.8 - 1e-12;  // the same
 
 Settings settings_of(Accuracy accuracy) {
-  return accuracy == Accuracy::per_mille ? Settings{12.0, 5.0, 192.0} : Settings{8.0, 5.0, 48.0};
+  return accuracy == Accuracy::per_mille ? Settings{12.0, 5.0, 192.0} : Settings{8.0, 5.0, 96.0};
 }
 
 double smallest_radius(const Scene& scene) {

@@ -58,14 +58,14 @@ TEST(Scene, AccuracyChoosesGridMeshAndStep) {
       parse("[method]\naccuracy = \"1e-2\"\n[flow]\nrate = 2\n" + box + sphere + "centre = [0, 2, 0]\n");
   EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{64, 32, 64}));  // h = R/8
   EXPECT_EQ(scene.mesh.latitudes, 40);
-  EXPECT_EQ(scene.time.step, 1.0 / 96.0);
+  EXPECT_EQ(scene.time.step, 1.0 / 192.0);
   EXPECT_TRUE(scene.coupling.thickness_correction);
   EXPECT_EQ(parse(to_toml(scene)).time.step, scene.time.step);
   // The smallest vesicle decides on the grid, the softest time scale of a stiff membrane on the step.
   EXPECT_EQ(
       parse(small, {"method.accuracy=1e-2", "domain.lower=[-4, -4, -4]", "domain.upper=[4, 4, 4.5]"}).domain.cells,
       (std::array<int, 3>{128, 128, 144}));  // 136 has the factor 17
-  EXPECT_EQ(parse(sphere, {"method.accuracy=1e-2", "membrane.capillary_number=0.5"}).time.step, 1.0 / 96.0);
+  EXPECT_EQ(parse(sphere, {"method.accuracy=1e-2", "membrane.capillary_number=0.5"}).time.step, 1.0 / 192.0);
 }
 
 TEST(Scene, GivenKeysWinOverTheAccuracyAndAreSaidToSpoilIt) {
@@ -74,7 +74,7 @@ TEST(Scene, GivenKeysWinOverTheAccuracyAndAreSaidToSpoilIt) {
   EXPECT_EQ(coarse.domain.cells, (std::array<int, 3>{48, 48, 48}));
   EXPECT_EQ(coarse.time.step, 1.0 / 24.0);
   expect_parts(describe_plan(coarse, 1),
-               {"not met for certain", "domain.cells below 96", "fewer than 40", "time.step above 1/48"});
+               {"not met for certain", "domain.cells below 96", "fewer than 40", "time.step above 1/96"});
   EXPECT_EQ(describe_plan(parse(sphere, {"method.accuracy=1e-2"}), 1).find("not met"), std::string::npos);
 }
 

@@ -53,7 +53,8 @@ TEST(DuctSeries, SolvesThePoissonEquation) {
   const auto second = [h](auto&& f) {
     return (-f(-2 * h) + 16 * f(-h) - 30 * f(0) + 16 * f(h) - f(2 * h)) / (12 * h * h);
   };
-  for (const auto [y, z] : {std::array{0.3, 0.2}, {2.0, -1.0}, {-1.0, 2.2}, {2.8, 2.3}}) {
+  for (const auto& point : {std::array{0.3, 0.2}, {2.0, -1.0}, {-1.0, 2.2}, {2.8, 2.3}}) {
+    const double y = point[0], z = point[1];  // clang 14 captures no structured bindings
     const double laplacian = second([&](double t) { return series.velocity(y + t, z); }) +
                              second([&](double t) { return series.velocity(y, z + t); });
     EXPECT_NEAR(-laplacian / series.pressure_gradient(), 1, 1e-7) << y << ' ' << z;
