@@ -152,7 +152,7 @@ TEST_P(ForEachKind, SolvesTheDiscreteEquationsOrRefusesThem) {
                                         << topology << ", alpha " << alpha);
         if (is_refused(backend, p)) {
           const char* what = p.form == EllipticForm::stress ? "stress" : "variable";
-          EXPECT_THAT([&] { make_elliptic_solver(p, backend.options); },
+          EXPECT_THAT(([&p, &options = backend.options] { make_elliptic_solver(p, options); }),
                       ThrowsMessage<std::invalid_argument>(
                           AllOf(HasSubstr("fft"), HasSubstr(what), HasSubstr("pcg"), HasSubstr("cholmod"))));
           continue;
