@@ -154,10 +154,12 @@ def _inertia_keys(how, dt, reynolds):
 def _inertia_recommended(how, dt, reynolds, convection):
     if number(dt) > min(convection, 1 / 12) or reynolds > 10:
         return False
+    if how.startswith("euler"):
+        return 4 * 4 * SPACING / number(dt) >= 600  # its sigma0: softer tension lets areas change by more than a per cent
     if not how.startswith("shape_following") or reynolds <= 0.1:
         return True
     g = number(dt) * 2000 / (4 * SPACING) if "sigma0" in how else 80
-    return g <= (200 if reynolds <= 1 else 80)
+    return g <= (111.5 if reynolds <= 1 else 80)
 
 
 INERTIA = Map(
