@@ -88,6 +88,7 @@ class ShapeFollowing : public MembraneMotion {
   double sigma0_, bending_, reynolds_number_, radius_;
   std::optional<double> overestimate_;  // Z over the rates of MembraneResponse, if not what a step with a lag needs
   double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
+  double remembered_viscosity_ = 0.0;             // of the explicit one, what the fluid is told of
   double lagging_viscosity_ = 0.0;                // what the explicit term adds to the overestimate
   bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
   vesicle::SphericalHarmonics harmonics_;
