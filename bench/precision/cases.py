@@ -191,7 +191,7 @@ def contrast_case(name, ratio, rotation, end, since, quick, title):
 
 
 def relaxation_case(quick):
-    """With inertia: shape following is unstable on grids of 48 and more but at small steps, so that the reference is implicit."""
+    """With inertia. The reference is of another integrator than most runs: implicit."""
     width = 6.0
     fit = lambda n: max(24, 8 * round(0.5 * n / 8))  # noqa: E731
     following = lambda n, step, **keys: {"cells": n, "mesh.latitudes": fit(n), "time.step": f"1/{step}"} | PLAIN | keys  # noqa: E731
@@ -261,7 +261,7 @@ def duct_case(quick):
 
 
 def extension_case(quick):
-    """Not a sweep: the settings that the others recommend, on a scene that was not used to find them."""
+    """Not a sweep: the settings that the others recommend, and shorter steps. It set those of method.accuracy."""
     width = 8.0
     sweeps = [("recommended", "level", {"cells": n, "mesh.latitudes": lat, "time.step": f"1/{step}"} | CORRECTED)
               for n, lat, step in ((32, 16, 24), (32, 24, 24), (48, 24, 24), (64, 32, 24), (64, 40, 48), (64, 40, 96), (96, 48, 48), (96, 64, 96), (96, 64, 192))]

@@ -47,7 +47,7 @@ def measures(folder):
     turns = shear.half_turns(course)
     column = lambda name: course[name][half]  # noqa: E731
     return {
-        "status": summary["status"], "time": summary["time"], "reason": summary["stop_reason"],
+        "status": summary["status"], "time": summary["time"], "reason": verdicts.cause(summary["stop_reason"]),
         "divergence": float(np.nanmax(column("surface_divergence_max"))),
         "growth": verdicts.growth_rate(time[half], column("surface_divergence_max")),
         "area_error": float(course["area_error"][-1]), "area_drift": slope(time[half], column("area_error")),

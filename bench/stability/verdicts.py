@@ -52,7 +52,7 @@ def measures(folder):
     largest = lambda name: float(np.nanmax(np.abs(course[name][last])))  # noqa: E731
     return {
         "completed": summary["status"] == "completed", "time": summary["time"], "steps": summary["steps"],
-        "reason": _cause(summary["stop_reason"]),
+        "reason": cause(summary["stop_reason"]),
         "divergence": largest("surface_divergence_max"), "local_area": largest("max_local_area_error"),
         "growth": growth_rate(time[half], course["surface_divergence_max"][half]),
         "jitter": jitter(angle[last]), "tail": largest("spectrum_tail"), "angle": float(angle[-1]),
@@ -61,7 +61,7 @@ def measures(folder):
     }
 
 
-def _cause(stop_reason):
+def cause(stop_reason):
     return re.sub(r"^stopped in step.*?: ", "", stop_reason.split("\n")[0]) if stop_reason else None
 
 

@@ -16,10 +16,7 @@ void apply_accuracy(Scene& scene);
 /// \throws SceneError where no settings are known that meet the target
 void check_accuracy(const Scene& scene, const std::string& name);
 
-/// What the scene has that is coarser than the target asks for, or beyond what was verified; empty if nothing is.
-std::string accuracy_doubts(const Scene& scene);
-
-/// One line for the plan.
+/// One line for the plan: the settings, and what in the scene is coarser or beyond what was verified.
 std::string describe_accuracy(const Scene& scene);
 
 }  // namespace vesiflow::coupling
