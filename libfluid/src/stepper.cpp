@@ -162,24 +162,35 @@ void Stepper::make_divergence_free() {
   remove_divergence(chi_, velocity);
 }
 
-void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& function) {
-  FaceVector sampled(grid);
-  const auto fields = sampled.points();
+namespace {
+
+// visit(component, i, j, k, position) at all points of all components.
+template <typename Visit>
+void for_each_point(const Grid& grid, Visit visit) {
   for (int component = 0; component < 3; ++component) {
-    const View& field = fields[component];
-    for (int k = 0; k < field.extent[2]; ++k) {
-      for (int j = 0; j < field.extent[1]; ++j) {
-        for (int i = 0; i < field.extent[0]; ++i) {
-          const Vector3 r = point_position(grid, face_centrings[component], i, j, k);
-          field(i, j, k) = function(r)[component];
-          if (std::isfinite(field(i, j, k))) continue;
-          throw std::invalid_argument(message("fluid: the velocity to start from is ", field(i, j, k), " in component ",
-                                              component, " at (", r[0], ", ", r[1], ", ", r[2], ")"));
-        }
-      }
-    }
+    const auto n = point_extent(grid, face_centrings[component]);
+    for (int k = 0; k < n[2]; ++k)
+      for (int j = 0; j < n[1]; ++j)
+        for (int i = 0; i < n[0]; ++i)
+          visit(component, i, j, k, point_position(grid, face_centrings[component], i, j, k));
   }
-  velocity = std::move(sampled);
+}
+
+}  // namespace
+
+// Looks at all values before it changes any: a second velocity to sample into would be the peak of a run's memory.
+void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& function) {
+  for_each_point(grid, [&](int component, int, int, int, const Vector3& r) {
+    const double value = function(r)[component];
+    if (std::isfinite(value)) return;
+    throw std::invalid_argument(message("fluid: the velocity to start from is ", value, " in component ", component,
+                                        " at (", r[0], ", ", r[1], ", ", r[2], ")"));
+  });
+  velocity.fill(0.0);
+  const auto fields = velocity.points();
+  for_each_point(grid, [&](int component, int i, int j, int k, const Vector3& r) {
+    fields[component](i, j, k) = function(r)[component];
+  });
   start();
 }
 

@@ -34,3 +34,5 @@ check adaptive "$scenes/tumbling.toml" "${few[@]}" --set time.end=3/48 --set tim
 check without_output "$scenes/tank_treading_coarse.toml" --set time.end=2/192 --set output.checkpoint_every=0 \
   --set output.fluid_every=0 --set output.vesicle_every=0
 check fine "$scenes/tank_treading.toml" --set time.end=2/384
+check large "$scenes/tank_treading.toml" --set domain.cells=128 --set time.end=1/384 --set output.checkpoint_every=0 \
+  --set output.fluid_every=0 --set output.vesicle_every=0
