@@ -6,6 +6,7 @@
 
 #include "coupling/marker_integrator.h"
 #include "implicit_motion.h"
+#include "mirror_symmetry.h"
 #include "shape_following.h"
 #include "step_error.h"
 
@@ -19,6 +20,7 @@ class MaterialMotion final : public MembraneMotion {
   MaterialMotion(const Scene& scene, const vesicle::Membrane& membrane)
       : interpolates_in_time_(scene.time.fluid_velocity == FluidVelocity::interpolated),
         has_stages_(scene.time.markers == "arkode"),
+        symmetry_(scene, membrane.positions()),
         positions_(membrane.positions()),
         displacement_(positions_),
         integrator_(make_marker_integrator(scene.time.markers, static_cast<std::size_t>(positions_.size()),
@@ -42,6 +44,7 @@ class MaterialMotion final : public MembraneMotion {
       evaluate(0.5, positions_);
     }
     membrane.correct_displacement(displacement_);
+    symmetry_.apply(displacement_);
     positions_ = membrane.positions() + displacement_;
     membrane.advance(positions_, velocities.fluid, velocities.membrane, dt);
     if (error_) error_->add(dt, displacement_);
@@ -94,6 +97,7 @@ class MaterialMotion final : public MembraneMotion {
   }
 
   bool interpolates_in_time_, has_stages_;
+  MirrorSymmetry symmetry_;
   vesicle::VectorField positions_, displacement_;
   std::unique_ptr<MarkerIntegrator> integrator_;
   std::optional<StepError> error_;  // of adaptive steps

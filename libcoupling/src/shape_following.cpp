@@ -69,6 +69,7 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
       is_thin_(scene.coupling.thickness_correction),
       extrapolates_viscosity_(scene.fluid.viscous_treatment == fluid::ViscousTreatment::extrapolated),
       keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
+      symmetry_(scene, membrane.positions()),
       harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
       response_(harmonics_.degrees(), radius_, scene.finest_spacing(),
                 scene.coupling.thickness_correction ? 0.0 : smoothed4_second_moment),
@@ -162,6 +163,7 @@ void ShapeFollowing::advance(double dt, const VelocityAt& velocity_at, vesicle::
 void ShapeFollowing::finish(double dt, vesicle::Membrane& membrane) {
   estimate_error(step_ratio(dt));
   conserve(membrane.surface());
+  symmetry_.apply(increment_);
   state_ += increment_;
   previous_dt_ = dt;
   ++steps_;

@@ -6,6 +6,7 @@
 #include "gmres.h"
 #include "membrane_motion.h"
 #include "membrane_response.h"
+#include "mirror_symmetry.h"
 #include "vesicle/conservation.h"
 #include "vesicle/spherical_harmonics.h"
 
@@ -91,6 +92,7 @@ class ShapeFollowing : public MembraneMotion {
   double remembered_viscosity_ = 0.0;             // of the explicit one, what the fluid is told of
   double lagging_viscosity_ = 0.0;                // what the explicit term adds to the overestimate
   bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
+  MirrorSymmetry symmetry_;
   vesicle::SphericalHarmonics harmonics_;
   MembraneResponse response_;
   std::optional<vesicle::ConservationProjection> volume_and_area_, volume_;

@@ -34,6 +34,32 @@ VectorField placed(const VectorField& shape, double scale, const Placement& plac
   return positions;
 }
 
+/// The coefficients over a power of two next to the largest: as many digits, and products of them do not overflow.
+struct UnitSize {
+  Coefficients coefficients;
+  int exponent;
+};
+UnitSize of_unit_size(const Coefficients& coefficients) {
+  const auto for_each = [&](auto&& visit) {
+    for (int n = 0; n < coefficients.degrees(); ++n)
+      for (int m = 0; m <= n; ++m)
+        for (int f = 0; f < coefficients.fields(); ++f) visit(f, n, m);
+  };
+  double largest = 0;
+  for_each([&](int f, int n, int m) {
+    const auto c = coefficients(f, n, m);
+    if (!std::isfinite(c.real()) || !std::isfinite(c.imag()))
+      throw std::invalid_argument("surface coefficients: must be finite");
+    largest = std::max({largest, std::abs(c.real()), std::abs(c.imag())});
+  });
+  UnitSize unit{coefficients, largest > 0 ? std::ilogb(largest) : 0};
+  for_each([&](int f, int n, int m) {
+    const auto c = coefficients(f, n, m);
+    unit.coefficients(f, n, m) = {std::ldexp(c.real(), -unit.exponent), std::ldexp(c.imag(), -unit.exponent)};
+  });
+  return unit;
+}
+
 /// (4/3) pi r^3 = volume.
 double radius_of_sphere(double volume) {
   return std::cbrt(volume / (4 * pi / 3));
@@ -213,20 +239,22 @@ VectorField shape_from_coefficients(const SphereGrid& grid, const Coefficients& 
                                     const Placement& placement) {
   check_placement(placement);
   check_argument(coefficients.fields() == 3, "fields of the surface coefficients", coefficients.fields(), "3");
-  if (!std::isfinite(coefficients.energy(0, coefficients.degrees())))
-    throw std::invalid_argument("surface coefficients: must be finite");
-  const EnclosedMoments moments = enclosed_moments(coefficients);
+  const auto [unit, exponent] = of_unit_size(coefficients);
+  const EnclosedMoments moments = enclosed_moments(unit);
   if (!(moments.volume > 0)) {
     std::ostringstream message;
-    message << "surface coefficients: enclosed volume = " << moments.volume
+    message << "surface coefficients: enclosed volume = " << std::ldexp(moments.volume, 3 * exponent)
             << ": must be > 0; a negative one means that X_theta x X_phi points inward: take the complex conjugate of "
                "every coefficient, which reverses the longitude";
     throw std::domain_error(message.str());
   }
   VectorField shape(grid.size(), 3);
-  SphericalHarmonics(coefficients.degrees(), grid).synthesis(coefficients, shape);
+  SphericalHarmonics(unit.degrees(), grid).synthesis(unit, shape);
   shape.rowwise() -= moments.centroid.transpose().array();
-  return placed(shape, placement.effective_radius / radius_of_sphere(moments.volume), placement);
+  shape = placed(shape, placement.effective_radius / radius_of_sphere(moments.volume), placement);
+  if (!shape.isFinite().all())
+    throw std::domain_error("surface coefficients: the enclosed volume is too small for the size of the surface");
+  return shape;
 }
 
 }  // namespace vesiflow::vesicle

@@ -135,6 +135,21 @@ TEST(Shapes, CoefficientsGiveBackTheShapeTheyCameFrom) {
   EXPECT_LT((x - ellipsoid(grid, {1, 2, 3}, placement)).abs().maxCoeff(), 1e-13);
 }
 
+TEST(Shapes, CoefficientsOfAnySizeGiveTheSameShape) {
+  Surface source(8);
+  source.update(ellipsoid(source.grid(), {1, 2, 3}));
+  const SphereGrid grid(8);
+  const VectorField x = shape_from_coefficients(grid, source.position_coefficients());
+  // Powers of two, of which cubes and fourth powers overflow or vanish, within the range of doubles.
+  for (const int exponent : {-900, -300, 300, 900}) {
+    Coefficients coefficients = source.position_coefficients();
+    for (int n = 0; n < coefficients.degrees(); ++n)
+      for (int m = 0; m <= n; ++m)
+        for (int f = 0; f < 3; ++f) coefficients(f, n, m) *= std::ldexp(1.0, exponent);
+    EXPECT_LT((shape_from_coefficients(grid, coefficients) - x).abs().maxCoeff(), 1e-14) << exponent;
+  }
+}
+
 TEST(Shapes, CoefficientsAreScaledToTheVolumeAndCentredOnTheCentroid) {
   // No symmetry, and more degrees than the nodes that it is then given on have latitudes.
   Surface source(24);
