@@ -200,6 +200,9 @@ void check_tension(const Scene& scene, const std::string& name) {
                     name, scene.membrane.integral_rate, scene.time.markers));
   if (!scene.membrane.g) return;
   const double meant = *scene.membrane.g * 4.0 * scene.finest_spacing() / scene.time.step;
+  if (!std::isfinite(meant))
+    throw SceneError(
+        fmt::format("{}: membrane.g = {:g}: too large: sigma0 = 4 g h/time.step overflows", name, *scene.membrane.g));
   if (std::abs(meant - scene.membrane.sigma0) > 5e-3 * meant)
     throw SceneError(
         fmt::format("{}: membrane.g = {:g} and membrane.sigma0 = {:g} disagree: at this time step and spacing "

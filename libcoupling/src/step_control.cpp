@@ -84,7 +84,8 @@ void StepControl::fail(double dt) {
 }
 
 void StepControl::restore(std::span<const double> state) {
-  if (state.size() != 3 || !(state[0] > 0.0) || !(state[1] > 0.0))
+  if (state.size() != 3 || !(state[0] > 0.0) || !(state[1] > 0.0) || !std::isfinite(state[0]) ||
+      !std::isfinite(state[1]))
     throw std::invalid_argument("the state of the step control is not one");
   step_ = state[0];
   last_ratio_ = state[1];

@@ -199,12 +199,16 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
   if (!(velocity_.grid() == grid && previous_.grid() == grid && pressure_.grid() == grid)) {
     throw std::invalid_argument("fluid: the state to restore is on another grid");
   }
+  // The last step is the time between, but for round-off in long times.
+  const double between = clock_.time - clock_.previous_time;
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(clock_.time);
   if (clock_.steps < 0 || !std::isfinite(clock_.time) || !std::isfinite(clock_.previous_time) ||
       (clock_.steps > 0 &&
-       !(clock_.time_step > 0.0 && std::isfinite(clock_.time_step) && clock_.previous_time < clock_.time))) {
-    throw std::invalid_argument(message("fluid: the state to restore has time ", clock_.time, ", previous time ",
-                                        clock_.previous_time, ", time step ", clock_.time_step, " and step number ",
-                                        clock_.steps, "; they must be finite, in order, and the time step positive"));
+       !(clock_.time_step > round_off && std::abs(between - clock_.time_step) <= round_off + 1e-9 * between))) {
+    throw std::invalid_argument(
+        message("fluid: the state to restore has time ", clock_.time, ", previous time ", clock_.previous_time,
+                ", time step ", clock_.time_step, " and step number ", clock_.steps,
+                "; they must be finite, in order, and the time step positive and the time between"));
   }
   if (!(is_finite(velocity_) && is_finite(previous_) && is_finite(pressure_.points()))) {
     throw std::invalid_argument("fluid: the state to restore is not finite");

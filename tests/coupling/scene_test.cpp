@@ -112,6 +112,7 @@ TEST(Scene, TensionNumberIsAnotherWayToGiveSigma0) {
   EXPECT_NEAR(parse(text, {"membrane.g=25/6"}).membrane.sigma0, 600.0, 1e-9);
   EXPECT_NEAR(parse(text).tension_number(), 25.0 / 6.0, 1e-12);
   expect_parts(message_of(text, {"membrane.g=2.0", "membrane.sigma0=600"}), {"membrane.g = 2", "disagree"});
+  expect_parts(message_of(text, {"membrane.g=1e308"}), {"membrane.g = 1e+308", "too large"});
 }
 
 TEST(Scene, WritesItselfAndReadsBackTheSame) {

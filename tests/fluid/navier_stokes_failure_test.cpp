@@ -60,6 +60,12 @@ TEST(AfterAFailure, AVelocityThatIsNotFiniteIsRefusedWithItsPlaceAndTheFlowGoesO
   broken.z(3, 4, 5) = nan;
   EXPECT_THAT([&] { fluid.restore(broken, fluid.previous_velocity(), fluid.pressure(), fluid.clock()); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("not finite")));
+  for (const double step : {1e-320, 0.05, -0.1, nan}) {
+    FluidClock clock = fluid.clock();
+    clock.time_step = step;
+    EXPECT_THAT([&] { fluid.restore(fluid.velocity(), fluid.previous_velocity(), fluid.pressure(), clock); },
+                ThrowsMessage<std::invalid_argument>(HasSubstr("the time between")));
+  }
   fluid.step(0.1);
   other.step(0.1);
   EXPECT_TRUE(test::same_bits(fluid.velocity(), other.velocity()));
