@@ -1,7 +1,6 @@
 // Checkpoints with damaged bytes. An input is a list of damages to a good checkpoint, so that it stays small and goes on
 // meaning something when the format changes: each is a place and what happens there.
 #include <fuzzer/FuzzedDataProvider.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "checkpoint_case.h"
 #include "input_file.h"
+#include "one_thread.h"
 
 namespace vesiflow::fuzz {
 namespace {
@@ -92,11 +92,6 @@ class Damage {
 
 }  // namespace
 }  // namespace vesiflow::fuzz
-
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  omp_set_num_threads(1);
-  return 0;
-}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vesiflow::fuzz;

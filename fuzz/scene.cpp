@@ -1,6 +1,5 @@
 // Scene files, with overrides in lines "--set key=value": each is refused by a SceneError of one readable line, or makes a
 // scene that can be written, read back as the same scene, and planned.
-#include <omp.h>
 
 #include <algorithm>
 #include <random>
@@ -11,6 +10,7 @@
 #include "check.h"
 #include "coupling/errors.h"
 #include "coupling/plan.h"
+#include "one_thread.h"
 #include "scene_file.h"
 
 namespace vesiflow::fuzz {
@@ -115,11 +115,6 @@ std::string random_override(std::minstd_rand& random) {
 
 }  // namespace
 }  // namespace vesiflow::fuzz
-
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  omp_set_num_threads(1);
-  return 0;
-}
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t largest);
 

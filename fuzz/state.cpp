@@ -1,11 +1,11 @@
 // States to restore a simulation to, with lists of other lengths and awkward numbers: what a checkpoint with good checksums
 // could hold. Each is refused by what restore() promises, or a state from which the next step is made or stopped with a reason.
 #include <fuzzer/FuzzedDataProvider.h>
-#include <omp.h>
 
 #include <limits>
 
 #include "checkpoint_case.h"
+#include "one_thread.h"
 
 namespace vesiflow::fuzz {
 namespace {
@@ -78,11 +78,6 @@ class StateEditor {
 
 }  // namespace
 }  // namespace vesiflow::fuzz
-
-extern "C" int LLVMFuzzerInitialize(int*, char***) {
-  omp_set_num_threads(1);
-  return 0;
-}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace vesiflow;
