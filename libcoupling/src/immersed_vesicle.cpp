@@ -59,7 +59,7 @@ void ImmersedVesicle::FlowAtMarkers::operator()(const Positions& positions, vesi
 void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions& positions,
                                                 vesicle::VectorField& velocity) const {
   {
-    const PhaseTimer timer(vesicle_.phases_->interpolate);
+    const PhaseTimer timer(vesicle_.moving.interpolate);
     vesicle_.transfer.update(positions);
     vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
     if (fraction != 1.0) {
@@ -70,7 +70,7 @@ void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions
     }
   }
   if (!vesicle_.thickness_) return;
-  const PhaseTimer timer(vesicle_.phases_->thickness_correction);
+  const PhaseTimer timer(vesicle_.moving.thickness_correction);
   vesicle_.thickness_->add_to(vesicle_.membrane, vesicle_.force(), velocity);
 }
 
@@ -86,11 +86,12 @@ void ImmersedVesicle::predict(double dt) {
   update();
 }
 
-void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity,
-                              Phases& phases) {
+void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_velocity,
+                              const fluid::FaceVector& velocity) {
+  moving = {};
+  const PhaseTimer timer(moving.mesh);
   previous_velocity_ = &previous_velocity;
   velocity_ = &velocity;
-  phases_ = &phases;
   motion->advance(dt, FlowAtMarkers(*this), membrane, velocities);
   is_current = false;
 }

@@ -27,10 +27,8 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
-  /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts of interpolation and thickness
-  /// correction.
-  void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity,
-               Phases& phases);
+  /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts in `moving`.
+  void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity);
 
   /// Velocities at markers that no step has moved yet.
   void interpolate(double dt, const fluid::FaceVector& velocity);
@@ -47,6 +45,8 @@ struct ImmersedVesicle {
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
   VelocityNoise noise;  ///< of velocities.membrane
+  Phases
+      moving;  ///< of the last advance(): all of it under mesh, and what of it are interpolation and thickness correction
   std::int64_t redistributions = 0;
   double area = 0.0, volume = 0.0;  ///< before an adaptive step
   bool is_current = false;          ///< whether geometry and forces are those of the membrane's state
@@ -65,7 +65,6 @@ struct ImmersedVesicle {
 
   const fluid::FaceVector* previous_velocity_ = nullptr;
   const fluid::FaceVector* velocity_ = nullptr;
-  Phases* phases_ = nullptr;
   vesicle::VectorField at_start_;  // of the step, where that is asked for
 };
 

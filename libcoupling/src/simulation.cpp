@@ -11,6 +11,7 @@
 #include "coupling/errors.h"
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
+#include "each_vesicle.h"
 #include "external_forces.h"
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
@@ -156,10 +157,10 @@ void Simulation::solve_step(double dt) {
 }
 
 void Simulation::compute_forces(double dt) {
-  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+  {
     const PhaseTimer timer(phases_.membrane);
-    vesicles_[i]->predict(dt);
-    check_limits(i);
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->predict(dt); });
+    for (std::size_t i = 0; i < vesicles_.size(); ++i) check_limits(i);
   }
   spread_forces();
 }
@@ -171,15 +172,18 @@ void Simulation::spread_forces() {
   }
   {
     const PhaseTimer timer(phases_.membrane);
-    for (auto& v : vesicles_) v->update();
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->update(); });
   }
   if (external_forces_->any()) {
     const PhaseTimer timer(phases_.external_forces);
     external_forces_->compute();
   }
   const PhaseTimer timer(phases_.spread);
-  for (auto& v : vesicles_) {
-    v->transfer.update(v->membrane.positions());
+  for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
+    ImmersedVesicle& v = *vesicles_[i];
+    v.transfer.update(v.membrane.positions());
+  });
+  for (auto& v : vesicles_) {  // on one grid, in this order: sums are the same for any number of threads
     v->transfer.spread(v->force(), v->membrane.surface().area_weight(), fluid_.force());
     if (const vesicle::VectorField* owed = v->motion->owed_force())
       v->transfer.spread(*owed, v->membrane.surface().area_weight(), fluid_.force());
@@ -214,10 +218,22 @@ void Simulation::advance_fluid(double dt) {
 }
 
 void Simulation::move_markers(double dt) {
-  for (auto& v : vesicles_) {
-    const PhaseTimer timer(phases_.mesh);
-    v->advance(dt, fluid_.previous_velocity(), fluid_.velocity(), phases_);
+  fluid::PhaseAccount all;
+  {
+    const PhaseTimer timer(all);
+    for_each_vesicle(vesicles_.size(),
+                     [&](std::size_t i) { vesicles_[i]->advance(dt, fluid_.previous_velocity(), fluid_.velocity()); });
   }
+  // Vesicles may have moved side by side: the time that passed is shared out as they spent theirs.
+  double spent = 0.0;
+  for (const auto& v : vesicles_) spent += v->moving.mesh.seconds;
+  const double share = spent > 0.0 ? all.seconds / spent : 0.0;
+  for (const auto& v : vesicles_)
+    for (const auto phase : {&Phases::mesh, &Phases::interpolate, &Phases::thickness_correction}) {
+      const fluid::PhaseAccount& account = v->moving.*phase;
+      (phases_.*phase).entries += account.entries;
+      (phases_.*phase).seconds += share * account.seconds;
+    }
 }
 
 void Simulation::redistribute_markers() {
@@ -268,9 +284,10 @@ void Simulation::check_growth() {
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {
   const PhaseTimer timer(phases_.diagnostics);
-  std::vector<vesicle::Diagnostics> all;
-  for (std::size_t i = 0; i < vesicles_.size(); ++i)
-    all.push_back(vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.membrane));
+  std::vector<vesicle::Diagnostics> all(vesicles_.size());
+  for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
+    all[i] = vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.membrane);
+  });
   return all;
 }
 

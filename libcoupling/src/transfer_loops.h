@@ -1,7 +1,5 @@
 #pragma once
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -12,6 +10,7 @@
 
 #include "coupling/marker_transfer.h"
 #include "delta_functions.h"
+#include "shares.h"
 #include "transfer_axis.h"
 
 namespace vesiflow::coupling {
@@ -78,6 +77,24 @@ class MarkerTransfer::KernelLoops final : public MarkerTransfer::Loops {
     int begin, end;
   };
 
+  // Of the points of some markers on the axes that are not periodic, and the first marker that has no place.
+  struct Extent {
+    Eigen::Index refused = 0;
+    std::array<int, 3> first{highest, highest, highest}, last{-1, -1, -1};
+
+    void join(const Extent& other) {
+      refused = std::min(refused, other.refused);
+      for (int axis = 0; axis < 3; ++axis) {
+        first[axis] = std::min(first[axis], other.first[axis]);
+        last[axis] = std::max(last[axis], other.last[axis]);
+      }
+    }
+
+    static constexpr int highest = std::numeric_limits<int>::max();
+  };
+
+  [[gnu::always_inline]] void place_marker(const Eigen::Ref<const vesicle::VectorField>& positions, Eigen::Index m,
+                                           Extent& extent);
   [[gnu::always_inline]] bool place(double position, int axis, Stencil& stencil, std::uint8_t& wraps) const;
   static IndexRange span_of(const Stencil& stencil, int axis);
   IndexRange touched_range(int axis) const;
@@ -139,40 +156,44 @@ inline bool MarkerTransfer::KernelLoops<Functions>::place(double position, int a
 }
 
 template <class Functions>
+inline void MarkerTransfer::KernelLoops<Functions>::place_marker(
+    const Eigen::Ref<const vesicle::VectorField>& positions, Eigen::Index m, Extent& extent) {
+  Stencil& stencil = stencils_[static_cast<std::size_t>(m)];
+  std::uint8_t& wraps = wraps_[static_cast<std::size_t>(m)];
+  wraps = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!place(positions(m, axis), axis, stencil, wraps)) {
+      extent.refused = std::min(extent.refused, m);
+      continue;
+    }
+    const IndexRange span = span_of(stencil, axis);
+    if (axes_[axis].periodic) {
+      std::atomic_ref(touched_[axis][static_cast<std::size_t>(stencil.first_face[axis])])
+          .store(1, std::memory_order_relaxed);
+      continue;
+    }
+    extent.first[axis] = std::min(extent.first[axis], span.first);
+    extent.last[axis] = std::max(extent.last[axis], span.first + span.count - 1);
+  }
+}
+
+template <class Functions>
 MarkerTransfer::Loops::Refusal MarkerTransfer::KernelLoops<Functions>::update(
     const Eigen::Ref<const vesicle::VectorField>& positions) {
   const Eigen::Index count = positions.rows();
   stencils_.resize(static_cast<std::size_t>(count));
   wraps_.resize(stencils_.size());
   for (auto& touched : touched_) std::ranges::fill(touched, std::uint8_t{0});
-  constexpr int highest = std::numeric_limits<int>::max();
-  std::array<int, 3> first{highest, highest, highest}, last{-1, -1, -1};
-  Eigen::Index refused = count;
-  int* const lows = first.data();
-  int* const highs = last.data();
-#pragma omp parallel for schedule(static) reduction(min : refused, lows[:3]) reduction(max : highs[:3])
-  for (Eigen::Index m = 0; m < count; ++m) {
-    Stencil& stencil = stencils_[static_cast<std::size_t>(m)];
-    std::uint8_t& wraps = wraps_[static_cast<std::size_t>(m)];
-    wraps = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!place(positions(m, axis), axis, stencil, wraps)) {
-        refused = std::min(refused, m);
-        continue;
-      }
-      const IndexRange span = span_of(stencil, axis);
-      if (axes_[axis].periodic) {
-        std::atomic_ref(touched_[axis][static_cast<std::size_t>(stencil.first_face[axis])])
-            .store(1, std::memory_order_relaxed);
-        continue;
-      }
-      lows[axis] = std::min(lows[axis], span.first);
-      highs[axis] = std::max(highs[axis], span.first + span.count - 1);
-    }
-  }
-  if (refused < count) {
-    Refusal refusal{refused, 0};
-    while (axes_[refusal.axis].place(positions(refused, refusal.axis)).allowed) ++refusal.axis;
+  Extent all{.refused = count};
+  in_shares(count, [&](Eigen::Index begin, Eigen::Index end) {
+    Extent share{.refused = count};
+    for (Eigen::Index m = begin; m < end; ++m) place_marker(positions, m, share);
+#pragma omp critical(vesiflow_extent_of_markers)
+    all.join(share);
+  });
+  if (all.refused < count) {
+    Refusal refusal{all.refused, 0};
+    while (axes_[refusal.axis].place(positions(all.refused, refusal.axis)).allowed) ++refusal.axis;
     stencils_.clear();  // half of them are not set
     box_ = {};
     return refusal;
@@ -180,7 +201,7 @@ MarkerTransfer::Loops::Refusal MarkerTransfer::KernelLoops<Functions>::update(
   for (int axis = 0; axis < 3; ++axis)
     box_[axis] = count == 0             ? IndexRange{}
                  : axes_[axis].periodic ? touched_range(axis)
-                                        : IndexRange{first[axis], last[axis] - first[axis] + 1};
+                                        : IndexRange{all.first[axis], all.last[axis] - all.first[axis] + 1};
   return {};
 }
 
@@ -214,14 +235,12 @@ template <class Functions>
 void MarkerTransfer::KernelLoops<Functions>::spread(const vesicle::VectorField& force,
                                                     const vesicle::ScalarField& area_weight, double per_volume,
                                                     const std::array<fluid::View, 3>& density) const {
-#pragma omp parallel
-  {
-    const int threads = omp_get_num_threads(), thread = omp_get_thread_num();
-    const Share share{box_[2].count * thread / threads, box_[2].count * (thread + 1) / threads};
+  in_shares(box_[2].count, [&](Eigen::Index begin, Eigen::Index end) {
+    const Share share{static_cast<int>(begin), static_cast<int>(end)};
     spread_component<0>(share, force.col(0).data(), area_weight.data(), per_volume, density[0]);
     spread_component<1>(share, force.col(1).data(), area_weight.data(), per_volume, density[1]);
     spread_component<2>(share, force.col(2).data(), area_weight.data(), per_volume, density[2]);
-  }
+  });
 }
 
 template <class Functions>
@@ -290,20 +309,20 @@ void MarkerTransfer::KernelLoops<Functions>::spread_wrapped(const Stencil& stenc
 template <class Functions>
 void MarkerTransfer::KernelLoops<Functions>::interpolate(const std::array<fluid::ConstView, 3>& velocity,
                                                          vesicle::VectorField& marker_velocity) const {
-  const auto count = static_cast<Eigen::Index>(stencils_.size());
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index m = 0; m < count; ++m) {
-    const Stencil& stencil = stencils_[static_cast<std::size_t>(m)];
-    if (wraps_[static_cast<std::size_t>(m)] != 0) {
-      marker_velocity(m, 0) = interpolated_wrapped<0>(stencil, velocity[0]);
-      marker_velocity(m, 1) = interpolated_wrapped<1>(stencil, velocity[1]);
-      marker_velocity(m, 2) = interpolated_wrapped<2>(stencil, velocity[2]);
-    } else {
-      marker_velocity(m, 0) = interpolated<0>(stencil, velocity[0]);
-      marker_velocity(m, 1) = interpolated<1>(stencil, velocity[1]);
-      marker_velocity(m, 2) = interpolated<2>(stencil, velocity[2]);
+  in_shares(static_cast<Eigen::Index>(stencils_.size()), [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index m = begin; m < end; ++m) {
+      const Stencil& stencil = stencils_[static_cast<std::size_t>(m)];
+      if (wraps_[static_cast<std::size_t>(m)] != 0) {
+        marker_velocity(m, 0) = interpolated_wrapped<0>(stencil, velocity[0]);
+        marker_velocity(m, 1) = interpolated_wrapped<1>(stencil, velocity[1]);
+        marker_velocity(m, 2) = interpolated_wrapped<2>(stencil, velocity[2]);
+      } else {
+        marker_velocity(m, 0) = interpolated<0>(stencil, velocity[0]);
+        marker_velocity(m, 1) = interpolated<1>(stencil, velocity[1]);
+        marker_velocity(m, 2) = interpolated<2>(stencil, velocity[2]);
+      }
     }
-  }
+  });
 }
 
 template <class Functions>

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <omp.h>
+
+#include <cstddef>
+#include <exception>
+
+namespace vesiflow::coupling {
+
+/// Calls visit(i) for i < count: side by side where there are as many vesicles as threads, as one membrane is too small to keep
+/// several busy; else one after the other, each with all threads. Visits must not share what they change. Of several exceptions
+/// that of the first vesicle is thrown, when all are done.
+template <class Visit>
+void for_each_vesicle(std::size_t count, const Visit& visit) {
+  const int threads = omp_get_max_threads();
+  if (threads == 1 || count < static_cast<std::size_t>(threads)) {
+    for (std::size_t i = 0; i < count; ++i) visit(i);
+    return;
+  }
+  std::size_t first = count;
+  std::exception_ptr thrown;
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t i = 0; i < count; ++i) {
+    try {
+      visit(i);
+    } catch (...) {
+#pragma omp critical(vesiflow_first_exception)
+      if (i < first) {
+        first = i;
+        thrown = std::current_exception();
+      }
+    }
+  }
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <omp.h>
+
+#include <Eigen/Core>
+
+namespace vesiflow::coupling {
+
+/// Calls work(begin, end) for shares of [0, count), one a thread. Inside a parallel region, whose threads have work of their own and where
+/// entering another allocates, there is one share.
+template <class Work>
+void in_shares(Eigen::Index count, const Work& work) {
+  if (omp_in_parallel() != 0) {
+    work(Eigen::Index{0}, count);
+    return;
+  }
+#pragma omp parallel
+  {
+    const Eigen::Index threads = omp_get_num_threads(), thread = omp_get_thread_num();
+    work(count * thread / threads, count * (thread + 1) / threads);
+  }
+}
+
+}  // namespace vesiflow::coupling
