@@ -65,11 +65,11 @@ void apply_accuracy(Scene& scene) {
   const double spacing = smallest_radius(scene) / s.cells_per_radius;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double cells = (scene.domain.upper[axis] - scene.domain.lower[axis]) / spacing;
-    if (!(cells <= 2048.0)) return;  // check_scene says what is wrong
+    if (!(cells > 0.0 && cells <= 2048.0)) return;  // check_scene says what is wrong
     scene.domain.cells[axis] = even_and_smooth(cells);
   }
-  const double latitudes = s.latitudes_per_cells * largest_radius(scene) / spacing;
-  scene.mesh.latitudes = std::min(256, 8 * static_cast<int>(std::ceil(latitudes / 8.0 - 1e-9)));
+  const double latitudes = std::min(256.0, s.latitudes_per_cells * largest_radius(scene) / spacing);
+  scene.mesh.latitudes = 8 * static_cast<int>(std::ceil(latitudes / 8.0 - 1e-9));
   if (scene.flow.type != FlowType::custom) scene.time.step = 1.0 / std::ceil(s.steps_per_rate * fastest_rate(scene));
   scene.membrane.sigma0 = stiff;
   scene.time.markers = "shape_following";

@@ -80,4 +80,14 @@ std::vector<double> nearest_distances(const fluid::Grid& grid, std::span<const v
   return nearest;
 }
 
+double wall_distance(const fluid::Grid& grid, const vesicle::VectorField& markers) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (grid.periodic[axis]) continue;
+    least = std::min(least, grid.upper[axis] - markers.col(axis).maxCoeff());
+    if (!grid.mirror[axis]) least = std::min(least, markers.col(axis).minCoeff() - grid.lower[axis]);
+  }
+  return least;
+}
+
 }  // namespace vesiflow::coupling

@@ -75,20 +75,9 @@ void describe_cells_across(Plan& plan, const Scene& scene) {
             across < fewest ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %" : "");
 }
 
-double wall_distance(const Scene& scene, const vesicle::VectorField& markers) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto u = static_cast<std::size_t>(axis);
-    if (scene.domain.periodic[u]) continue;
-    least = std::min(least, scene.domain.upper[u] - markers.col(axis).maxCoeff());
-    if (!scene.domain.mirror[u]) least = std::min(least, markers.col(axis).minCoeff() - scene.domain.lower[u]);
-  }
-  return least;
-}
-
 // Of the start, between membranes and to the walls.
 void describe_distances(Plan& plan, const Scene& scene) {
-  constexpr double resolved = 2.0;  // grid spacings
+  const fluid::Grid grid = grid_of(scene);
   std::vector<vesicle::VectorField> markers;
   std::vector<const vesicle::VectorField*> pointers;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
@@ -96,15 +85,15 @@ void describe_distances(Plan& plan, const Scene& scene) {
   double to_walls = std::numeric_limits<double>::infinity();
   for (const vesicle::VectorField& of_one : markers) {
     pointers.push_back(&of_one);
-    to_walls = std::min(to_walls, wall_distance(scene, of_one));
+    to_walls = std::min(to_walls, wall_distance(grid, of_one));
   }
   const auto describe = [&](const char* label, double distance) {
     const double in_spacings = distance / scene.spacing();
     if (std::isfinite(distance))
       plan.line(label, "{:.3g} at the start, {:.2g} h{}", distance, in_spacings,
-                in_spacings < resolved ? "  <- WARNING: the fluid in between is not resolved below 2 h" : "");
+                in_spacings < least_resolved_gap ? "  <- WARNING: the fluid in between is not resolved below 2 h" : "");
   };
-  describe("between membranes", std::ranges::min(nearest_distances(grid_of(scene), pointers)));
+  describe("between membranes", std::ranges::min(nearest_distances(grid, pointers)));
   describe("to the walls", to_walls);
 }
 

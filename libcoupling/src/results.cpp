@@ -142,9 +142,9 @@ void DiagnosticsTable::flush_to_disk() const {
   if (descriptor.valid() && fsync(descriptor) != 0) throw not_written(file_);
 }
 
-void DiagnosticsTable::write(const Simulation& simulation, std::span<const vesicle::Diagnostics> all) {
+void DiagnosticsTable::write(const Simulation& simulation, std::span<const vesicle::Diagnostics> all,
+                             std::span<const double> distances) {
   const bool has_distances = all.size() > 1;
-  const std::vector<double> distances = has_distances ? simulation.nearest_distances() : std::vector<double>{};
   std::string text;
   if (!std::filesystem::exists(file_)) text = column_names(all.front(), has_distances);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -49,8 +49,9 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
 class DiagnosticsTable {
  public:
   explicit DiagnosticsTable(const std::filesystem::path& directory);
-  /// A row for each vesicle, of what measure() has given.
-  void write(const Simulation& simulation, std::span<const vesicle::Diagnostics> all);
+  /// A row for each vesicle, of what measure() and nearest_distances() have given.
+  void write(const Simulation& simulation, std::span<const vesicle::Diagnostics> all,
+             std::span<const double> distances);
   /// Removes the rows after `step`: a restarted run writes them again.
   void rewind(long step);
   /// What a checkpoint counts on must not be lost with the power.

@@ -193,8 +193,9 @@ void Run::record(bool last) {
   if (wanted(output.diagnostics_every) && table_->last_step() < step) {
     const OutputTimer timer(record_.output_table, simulation_);
     const std::vector<vesicle::Diagnostics> all = simulation_.measure();
-    table_->write(simulation_, all);
-    record_.quality.observe(simulation_, all);
+    const std::vector<double> distances = simulation_.nearest_distances();
+    table_->write(simulation_, all, distances);
+    record_.quality.observe(simulation_, all, distances);
     warn_of_resolution();
   }
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupling/flow.h"
+#include "coupling/overlap.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -39,9 +40,14 @@ void RunQuality::observe_step(const Simulation& simulation) {
   }
 }
 
-void RunQuality::observe(const Simulation& simulation, std::span<const vesicle::Diagnostics> all) {
+void RunQuality::observe(Simulation& simulation, std::span<const vesicle::Diagnostics> all,
+                         std::span<const double> distances) {
   raise(errors_.divergence, simulation.max_divergence());
+  const fluid::Grid& grid = simulation.fluid().grid();
   for (std::size_t i = 0; i < all.size(); ++i) {
+    errors_.membrane_gap = std::min(errors_.membrane_gap, distances[i] / scene_.spacing());
+    errors_.wall_gap =
+        std::min(errors_.wall_gap, wall_distance(grid, simulation.membrane(i).positions()) / scene_.spacing());
     const vesicle::Diagnostics& d = all[i];
     raise(errors_.area, d.area_error);
     raise(errors_.volume, d.volume_error);
@@ -96,6 +102,15 @@ std::vector<std::string> RunQuality::warnings() const {
              "take a smaller time.step");
   warn_above(scene_.fluid.inertia == fluid::Inertia::none ? 0.0 : scene_.fluid.reynolds_number, largest_reynolds_number,
              "fluid.reynolds_number", "more than has been compared with anything");
+  const auto warn_below = [&](double gap, const char* what) {
+    if (gap < least_resolved_gap)
+      all.push_back(
+          fmt::format("a membrane came within {:.2g} spacings of {}, below {:g}: the fluid in between is not resolved, "
+                      "take more domain.cells",
+                      gap, what, least_resolved_gap));
+  };
+  warn_below(e.membrane_gap, "another");
+  warn_below(e.wall_gap, "a wall");
   if (scene_.has_viscosity_contrast())
     all.emplace_back(
         "with a contrast of viscosities the error of the grid is larger than grid_error and of first order: compare "

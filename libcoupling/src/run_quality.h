@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,7 +13,7 @@ namespace vesiflow::coupling {
 /// what the studies of docs/validation.md and docs/stability.md cover.
 class RunQuality {
  public:
-  /// Greatest values over what has been observed; of all vesicles.
+  /// Greatest values, and least distances, over what has been observed; of all vesicles.
   struct Errors {
     double area = 0.0, volume = 0.0;  ///< |relative|, of whole vesicles
     double local_area = 0.0;          ///< max_local_area_error, where there is a tension
@@ -24,14 +25,16 @@ class RunQuality {
         0.0;  ///< share of a membrane's velocity that changes from step to step and back; after the tenth step
     double courant_number = 0.0;  ///< dt times the membranes' greatest speed over the spacing
     double divergence = 0.0;      ///< |div u| of the fluid
+    /// Least distance, in spacings, of a membrane to another one and to a wall; infinite where there is none.
+    double membrane_gap = std::numeric_limits<double>::infinity(), wall_gap = membrane_gap;
   };
 
   explicit RunQuality(const Scene& scene);
 
   /// After every step: what is at hand without measuring.
   void observe_step(const Simulation& simulation);
-  /// With what measure() has given.
-  void observe(const Simulation& simulation, std::span<const vesicle::Diagnostics> all);
+  /// With what measure() and nearest_distances() have given.
+  void observe(Simulation& simulation, std::span<const vesicle::Diagnostics> all, std::span<const double> distances);
 
   const Errors& errors() const { return errors_; }
   /// Goes back to errors of before: what came later did not happen.

@@ -60,7 +60,7 @@ Json vesicles_of(Simulation& simulation, RunQuality& quality) {
   try {
     const std::vector<double> distances = simulation.nearest_distances();
     const std::vector<vesicle::Diagnostics> all = simulation.measure();
-    quality.observe(simulation, all);
+    quality.observe(simulation, all, distances);
     for (const auto& diagnostics : all)
       list.push_back(
           vesicle_of(diagnostics, simulation.redistributions(list.size()), simulation.marker_statistics(list.size())));
@@ -93,6 +93,8 @@ Json errors_of(const RunQuality::Errors& errors) {
           {"unresolved_bending", finite_or_null(errors.unresolved_bending)},
           {"velocity_noise", finite_or_null(errors.velocity_noise)},
           {"courant_number", finite_or_null(errors.courant_number)},
+          {"membrane_gap", finite_or_null(errors.membrane_gap)},
+          {"wall_gap", finite_or_null(errors.wall_gap)},
           {"divergence", finite_or_null(errors.divergence)}};
 }
 

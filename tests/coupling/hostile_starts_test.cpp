@@ -7,6 +7,7 @@
 #include "coupling/errors.h"
 #include "coupling/plan.h"
 #include "coupling/simulation.h"
+#include "run_quality.h"
 #include "small_scene.h"
 
 namespace vesiflow::coupling {
@@ -56,6 +57,46 @@ TEST(HostileStarts, PlanWarnsOfMembranesNearEachOtherAndNearWalls) {
   EXPECT_FALSE(plan_says({"vesicles.0.centre=[0, 1.4, 0]"}, "is not resolved below 2 h"));  // y semi-axis 0.83: 3 h
   EXPECT_TRUE(plan_says({"vesicles.0.centre=[0, 1.75, 0]"}, "is not resolved below 2 h"));
   EXPECT_THROW(small_scene({"vesicles.0.centre=[0, 1.9, 0]"}), SceneError);
+}
+
+TEST(HostileStarts, ARunWarnsOfMembranesThatCameNearEachOtherOrAWall) {
+  const auto said = [](const Scene& scene) {
+    Simulation simulation(scene);
+    RunQuality quality(simulation.scene());
+    quality.observe(simulation, simulation.measure(), simulation.nearest_distances());
+    std::string all;
+    for (const std::string& warning : quality.warnings()) all += warning + "\n";
+    return all;
+  };
+  EXPECT_EQ(said(pair_at(0.45)).find("came within"), std::string::npos);
+  EXPECT_NE(said(pair_at(0.3)).find("a membrane came within 1.6 spacings of another"),
+            std::string::npos);  // h = 0.1875
+  EXPECT_EQ(said(small_scene({"vesicles.0.centre=[0, 1.4, 0]"})).find("came within"), std::string::npos);
+  EXPECT_NE(said(small_scene({"vesicles.0.centre=[0, 1.75, 0]"})).find("spacings of a wall"), std::string::npos);
+}
+
+// The tension of before the turn takes part of a unit of time to change its sign, and the step of the turn is one of first order.
+TEST(HostileStarts, AFlowThatTurnsRoundIsFollowed) {
+  const auto after = [](const char* markers, const char* step) {
+    Scene scene =
+        small_scene({std::string("time.markers=") + markers, std::string("time.step=") + step, "time.end=1.5"});
+    scene.membrane.sigma0 = 2000;
+    const double turn = 0.5 * scene.time.end + 1e-9;
+    Simulation simulation(
+        scene,
+        [turn](const fluid::Vector3& r, double t) {
+          return fluid::Vector3{t <= turn ? r[2] : -r[2], 0.0, 0.0};
+        },
+        false);
+    while (!simulation.finished()) simulation.step();
+    return simulation.measure()[0];
+  };
+  const auto exact = after("implicit", "1/192");
+  const auto fine = after("shape_following", "1/96"), coarse = after("shape_following", "1/48");
+  const double error = std::abs(fine.deformation - exact.deformation);
+  EXPECT_LT(error, 5e-3 * exact.deformation);
+  EXPECT_LT(error, 0.6 * std::abs(coarse.deformation - exact.deformation));
+  EXPECT_NEAR(fine.inclination_angle, exact.inclination_angle, 0.01);
 }
 
 // The delta function answers most where it is narrow: g is that of the finest spacing, along whichever axis.

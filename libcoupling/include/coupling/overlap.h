@@ -18,4 +18,10 @@ bool overlap(const vesicle::Surface& surface, const vesicle::VectorField& marker
 /// infinite where there is no other. All arrays are (markers x 3).
 std::vector<double> nearest_distances(const fluid::Grid& grid, std::span<const vesicle::VectorField* const> membranes);
 
+/// The least distance of markers (markers x 3) in the box to its walls; infinite without walls.
+double wall_distance(const fluid::Grid& grid, const vesicle::VectorField& markers);
+
+/// Nearer than this many spacings to each other, or to a wall, membranes have a flow between them that the grid does not resolve.
+constexpr double least_resolved_gap = 2.0;
+
 }  // namespace vesiflow::coupling
