@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "coupling/flow.h"
+
 namespace vesiflow::coupling {
 namespace {
 
@@ -74,6 +76,30 @@ std::string BlowUpGuard::look_at(const fluid::FaceVector& velocity, long step) {
 
 bool BlowUpGuard::suspects() const {
   return std::ranges::any_of(too_noisy_, [](int steps) { return steps > 0; });
+}
+
+std::string blow_up_advice(const Scene& scene) {
+  if (const double convection = stable_convection_step(scene); !scene.time.adaptive && scene.time.step > convection)
+    return fmt::format("the explicit convection is unstable for time.step above about {:.3g} near the walls: reduce it",
+                       convection);
+  const std::string mesh = "the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too deflated";
+  const double limit = scene.stable_tension_number();
+  if (std::isfinite(limit))
+    return fmt::format(
+        "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: "
+        "reduce "
+        "time.step or membrane.sigma0; if g is well below that, {}",
+        limit, scene.tension_number(), mesh);
+  // docs/time_integration.md, shape_following: with inertia it has a limit, which falls with the Reynolds number.
+  constexpr double limit_with_inertia = 80.0, least_reynolds_number = 0.5;
+  const bool has_limit = scene.time.markers == "shape_following" && scene.fluid.inertia != fluid::Inertia::none &&
+                         scene.fluid.reynolds_number >= least_reynolds_number;
+  if (has_limit && scene.tension_number() > limit_with_inertia)
+    return fmt::format(
+        "at this Reynolds number g = dt sigma0/(4 h) is quiet to about {:g}, and this scene has g = {:.3g}: reduce "
+        "time.step or membrane.sigma0; or {}",
+        limit_with_inertia, scene.tension_number(), mesh);
+  return fmt::format("reduce time.step; or {}", mesh);
 }
 
 }  // namespace vesiflow::coupling

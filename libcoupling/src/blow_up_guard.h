@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "coupling/scene.h"
@@ -33,5 +34,8 @@ class BlowUpGuard {
   double known_speed_;          // greatest of walls and membranes
   std::vector<int> too_noisy_;  // steps on end, for each membrane
 };
+
+/// What to do about a run of this scene that has blown up: its most likely cause by what is known of limits.
+std::string blow_up_advice(const Scene& scene);
 
 }  // namespace vesiflow::coupling

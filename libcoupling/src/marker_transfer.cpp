@@ -6,6 +6,7 @@
 #include <string>
 
 #include "coupling/errors.h"
+#include "shares.h"
 #include "transfer_axis.h"
 #include "transfer_loops.h"
 
@@ -96,13 +97,14 @@ void MarkerTransfer::clear_box(const Box& box, const fluid::View& component) con
   };
   const int first = box[0].first, count = box[0].count;
   const int beyond = grid_.periodic[0] ? std::max(0, first + count - grid_.cells[0]) : 0;
-#pragma omp parallel for schedule(static)
-  for (int k = 0; k < box[2].count; ++k)
-    for (int j = 0; j < box[1].count; ++j) {
-      double* row = component.row(wrapped(1, box[1].first + j), wrapped(2, box[2].first + k));
-      std::fill_n(row + first, count - beyond, 0.0);
-      std::fill_n(row, beyond, 0.0);
-    }
+  in_shares(box[2].count, [&](Eigen::Index begin, Eigen::Index end) {
+    for (int k = static_cast<int>(begin); k < end; ++k)
+      for (int j = 0; j < box[1].count; ++j) {
+        double* row = component.row(wrapped(1, box[1].first + j), wrapped(2, box[2].first + k));
+        std::fill_n(row + first, count - beyond, 0.0);
+        std::fill_n(row, beyond, 0.0);
+      }
+  });
 }
 
 }  // namespace vesiflow::coupling

@@ -7,10 +7,10 @@
 namespace vesiflow::coupling {
 
 /// Calls work(begin, end) for shares of [0, count), one a thread. Inside a parallel region, whose threads have work of their own and where
-/// entering another allocates, there is one share.
+/// entering another allocates, or with one thread, there is one share.
 template <class Work>
 void in_shares(Eigen::Index count, const Work& work) {
-  if (omp_in_parallel() != 0) {
+  if (omp_in_parallel() != 0 || omp_get_max_threads() == 1) {
     work(Eigen::Index{0}, count);
     return;
   }
