@@ -25,7 +25,8 @@ class Estimate:
 class Case:
     """sweeps: [(family, knob, keys)], keys as for --set beside those of the case, `cells` for the cells across the box.
     reference: the estimate that errors are taken against; others: what stands beside it, whose distance from it is its own error.
-    doubts: pairs of keys at a lower resolution whose difference is the reference's error of another kind (of its step, say)."""
+    doubts: pairs of keys at a lower resolution whose difference is the reference's error of another kind (of its step, say).
+    recipes: estimates that a user could take instead of one run, in the sweeps with the seconds of all their runs."""
 
     name: str
     title: str
@@ -39,6 +40,7 @@ class Case:
     since: float
     width: float  # of the box, in effective radii
     shape: tuple  # of the box that is computed, over its width
+    recipes: tuple = ()
 
     def run(self, label, keys):
         keys = self.keys | keys
@@ -59,7 +61,7 @@ class Case:
         found = {}
         for _, _, keys in self.sweeps:
             found[self.label(keys)] = self.run(self.label(keys), keys)
-        for estimate in (self.reference, *self.others):
+        for estimate in (self.reference, *self.others, *self.recipes):
             for _, keys in estimate.parts:
                 found[self.label(keys)] = self.run(self.label(keys), keys)
         for _, *pair in self.doubts:
@@ -177,6 +179,10 @@ def contrast_case(name, ratio, rotation, end, since, quick, title):
                    for n, step in ((24, 24), (48, 24), (96, 24), (128, 96))]
     fine = {"mesh.latitudes": 32 if quick else 64, "time.step": "1/48" if quick else "1/96"}
     grids = (64, 48, 32) if quick else (160, 128, 96)
+    # The error is of first order in h: a line through two grids.
+    pairs = ((48, 32),) if quick else ((48, 32), (64, 48), (96, 64), (128, 96))
+    recipes = tuple(estimate(f"{coarse} and {n} to h = 0, {latitudes(width, n)} lat", width, (n, coarse),
+                             {"mesh.latitudes": latitudes(width, n), "time.step": f"1/{slow}"} | CORRECTED) for n, coarse in pairs)
     return Case(
         name, title, "scenes/paper/half_box.toml",
         {"domain.lower": [-4, 0, -4], "domain.upper": [4, 4, 4], "vesicles.0.rotation_deg": rotation, "time.end": end,
@@ -187,7 +193,7 @@ def contrast_case(name, ratio, rotation, end, since, quick, title):
          estimate("extrapolated from three grids, plain", width, grids, fine | PLAIN)],
         [("time step", {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32},
           {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32, "time.step": "1/384"})],
-        {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency"}, since, width, (1, 0.5, 1))
+        {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency"}, since, width, (1, 0.5, 1), recipes)
 
 
 def relaxation_case(quick):
@@ -281,7 +287,7 @@ def extension_case(quick):
         {"angle": "inclination_angle_deg", "deformation": "deformation"}, 0.25, width, (1, 0.5, 1))
 
 
-def unseen_case(quick):
+def preset_case(name, title, scene, keys, shape, columns, quick):
     """What method.accuracy chooses, on a scene that was not used to choose it."""
     width = 8.0
     sweeps = [(f"accuracy {level}", "level", {"cells": n, "method.accuracy": level}) for n, level in ((64, "1e-2"), (96, "1e-3"))[:1 if quick else 2]]
@@ -291,13 +297,26 @@ def unseen_case(quick):
     grids = (96, 64, 48) if quick else (160, 128, 96)
     small = {"cells": 48, "mesh.latitudes": 24} | CORRECTED
     return Case(
-        "unseen", "not used in the choice: reduced volume 0.8, Ca = 1, off the axis of plane Poiseuille flow, to t = 6", "scenes/poiseuille_off_axis.toml",
-        {"time.end": 6, "output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2},
+        name, f"not used in the choice: {title}", scene, {"output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2} | keys,
         sweeps, finest("finest grid, corrected", grids[0], fine | CORRECTED),
         [finest("next finest, corrected", grids[1], fine | CORRECTED),
          estimate("extrapolated from three grids, plain", width, grids, fine | PLAIN | {"time.step": step})],
-        [("time step", small | {"time.step": fine["time.step"]}, small | {"time.step": "1/192" if quick else "1/768"})],
-        {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, 0.25, width, (1, 0.5, 1))
+        [("time step", small | {"time.step": fine["time.step"]}, small | {"time.step": "1/192" if quick else "1/768"})], columns, 0.25, width, shape)
+
+
+def unseen_case(quick):
+    return preset_case("unseen", "reduced volume 0.8, Ca = 1, off the axis of plane Poiseuille flow, to t = 6", "scenes/poiseuille_off_axis.toml",
+                       {"time.end": 6}, (1, 0.5, 1),
+                       {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick)
+
+
+def tilted_case(quick):
+    """No symmetry but that of a point; it had no say in any of the settings."""
+    return preset_case("unseen_tilted", "reduced volume 0.87, Ca = 1.5, tilted out of the plane of a shear flow, to t = 3", "scenes/poiseuille_off_axis.toml",
+                       {"domain.lower": [-4, -4, -4], "domain.periodic": [False] * 3, "domain.mirror": [False] * 3, "flow.type": "shear", "membrane.capillary_number": 1.5,
+                        "vesicles.0.reduced_volume": 0.87, "vesicles.0.centre": [0, 0, 0], "vesicles.0.rotation_axis": [1, 1, 0], "vesicles.0.rotation_deg": 50,
+                        "time.end": 3}, (1, 1, 1),
+                       {"angle": "inclination_angle_deg", "deformation": "deformation"}, quick)
 
 
 BUILDERS = {
@@ -310,6 +329,7 @@ BUILDERS = {
     "duct": duct_case,
     "extension": extension_case,
     "unseen": unseen_case,
+    "unseen_tilted": tilted_case,
 }
 
 

@@ -25,15 +25,19 @@ def read(folder):
 
 def combination(parts):
     """sum of w X over [(w, state)], weights adding up to 1; angles, which count modulo 180 degrees, are those nearest to the first's."""
-    first = parts[0][1]
     assert abs(sum(w for w, _ in parts) - 1) < 1e-12
-    membranes = {time: sum(w * state["membranes"][time] for w, state in parts) for time in first["membranes"]}
+    times = lambda state: [round(t, ROUND) for t in state["course"]["time"]]  # noqa: E731
+    # A run that was interrupted has a row and a snapshot more than others.
+    rows = sorted(set.intersection(*(set(times(state)) for _, state in parts)))
+    shots = sorted(set.intersection(*(set(state["membranes"]) for _, state in parts)))
+    chosen = [[times(state).index(t) for t in rows] for _, state in parts]
+    membranes = {time: sum(w * state["membranes"][time] for w, state in parts) for time in shots}
     course = {}
-    for key, values in first["course"].items():
-        column = lambda state: state["course"][key]  # noqa: E731
+    for key in parts[0][1]["course"]:
+        columns = [state["course"][key][of] for (_, state), of in zip(parts, chosen)]
         if key == "inclination_angle_deg":
-            column = lambda state: values + turned(state["course"][key] - values)  # noqa: E731
-        course[key] = values if key in ("step", "time", "vesicle") else sum(w * column(state) for w, state in parts)
+            columns = [columns[0] + turned(column - columns[0]) for column in columns]
+        course[key] = columns[0] if key in ("step", "time", "vesicle") else sum(w * column for (w, _), column in zip(parts, columns))
     return {"membranes": membranes, "course": course}
 
 

@@ -41,6 +41,11 @@ def evaluate(case, wanted):
         found = {} if name in stopped else reference.errors(state(keys))
         points[name] = {"family": family, "knob": knob, "h": case.spacing(keys), "cpu_seconds": runs.cpu_seconds(wanted[name])} | found | {
             "angle_end_deg": None if name in stopped else float(state(keys)["course"]["inclination_angle_deg"][-1]), "run": runs.provenance(wanted[name])}
+    for estimate in case.recipes:
+        names = [case.label(keys) for _, keys in estimate.parts]
+        if not stopped.intersection(names):
+            points[estimate.name] = {"family": "two grids", "knob": "extrapolation", "h": min(case.spacing(keys) for _, keys in estimate.parts),
+                                     "cpu_seconds": sum(runs.cpu_seconds(wanted[n]) for n in names)} | reference.errors(combined(estimate)) | {"parts": names}
     own = {key: max(found[key] for found in doubts.values()) for key in next(iter(doubts.values()))}
     front = pareto(points)
     course = reference.state["course"]
