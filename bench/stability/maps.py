@@ -205,8 +205,9 @@ ADVISED = ("standard", "interpolated slip", "linear tension", "Lap H: christoffe
 def _formula_keys(how, volume, formula):
     markers, latitudes = how.split(", ")
     step, sigma0 = ("1/24", 2000) if markers == "shape_following" else ("1/192", 600)
-    return {"time.markers": markers, "mesh.latitudes": int(latitudes.split()[0]), "time.step": step, "membrane.sigma0": sigma0,
-            "vesicles.0.reduced_volume": volume} | FORMULAS[formula]
+    room = ROOMY if volume < 0.75 else {}  # it reaches the walls of the small box
+    return room | {"time.markers": markers, "mesh.latitudes": int(latitudes.split()[0]), "time.step": step, "membrane.sigma0": sigma0,
+                   "vesicles.0.reduced_volume": volume} | FORMULAS[formula]
 
 
 FORMULA_MAP = Map(

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "accuracy.h"
 #include "cost_model.h"
@@ -16,6 +18,8 @@
 #include "initial_shape.h"
 #include "memory_plan.h"
 #include "vesicle/mesh_control.h"
+#include "vesicle/shapes.h"
+#include "vesicle/surface.h"
 #include "viscosity_plan.h"
 
 namespace vesiflow::coupling {
@@ -97,6 +101,25 @@ void describe_distances(Plan& plan, const Scene& scene) {
   describe("to the walls", to_walls);
 }
 
+// Of the start, of the vesicle that has least. Limits: docs/stability.md, reduced volume and capillary number.
+void describe_deflation(Plan& plan, const Scene& scene) {
+  constexpr double least_stable = 0.65, least_stable_in_fast_flow = 0.9, fast_flow = 10.0;
+  constexpr double quadrature = 2e-3;  // its error on few latitudes
+  double least = 1.0, capillary_number = 0.0;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    vesicle::Surface surface(scene.latitudes(i));
+    surface.update(initial_markers(scene.vesicles[i], scene.latitudes(i)));
+    const double deflated = vesicle::reduced_volume(surface.area(), surface.volume());
+    if (deflated < least) std::tie(least, capillary_number) = std::pair{deflated, scene.capillary_number(i)};
+  }
+  const bool is_fast = scene.flow.type != FlowType::rest && capillary_number >= fast_flow;
+  plan.line("reduced volume", "{:.3g} at the start{}", least,
+            least < least_stable - quadrature ? "  <- WARNING: below 0.65 most runs stop"
+            : is_fast && least < least_stable_in_fast_flow - quadrature
+                ? "  <- WARNING: in a flow at Ca = 10 and more, runs below 0.9 are noisy or stop"
+                : "");
+}
+
 bool has_unequal_spacings(const Scene& scene) {
   constexpr double round_off = 1e-9;
   return scene.finest_spacing() < (1.0 - round_off) * scene.spacing();
@@ -124,6 +147,7 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
   describe_cells_across(plan, scene);
+  describe_deflation(plan, scene);
   describe_distances(plan, scene);
   plan.line("time", "{}", describe_time(scene));
   constexpr double far = 10.0;

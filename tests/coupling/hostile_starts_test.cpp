@@ -48,6 +48,16 @@ TEST(HostileStarts, PlanWarnsOfStiffMembranesInLongSteps) {
   EXPECT_FALSE(plan_says({"membrane.capillary_number=0.015", "time.adaptive=true"}, warning));
 }
 
+TEST(HostileStarts, PlanWarnsOfDeflatedVesicles) {
+  EXPECT_FALSE(plan_says({"vesicles.0.reduced_volume=0.65"}, "most runs stop"));
+  EXPECT_TRUE(plan_says({"vesicles.0.reduced_volume=0.62"}, "reduced volume                  0.62 at the start"));
+  EXPECT_TRUE(plan_says({"vesicles.0.reduced_volume=0.62"}, "most runs stop"));
+  EXPECT_FALSE(plan_says({"vesicles.0.reduced_volume=0.9", "membrane.capillary_number=30"}, "noisy or stop"));
+  EXPECT_TRUE(plan_says({"vesicles.0.reduced_volume=0.85", "membrane.capillary_number=30"}, "noisy or stop"));
+  EXPECT_FALSE(
+      plan_says({"vesicles.0.reduced_volume=0.85", "membrane.capillary_number=30", "flow.type=rest"}, "noisy"));
+}
+
 TEST(HostileStarts, PlanWarnsOfMembranesNearEachOtherAndNearWalls) {
   const auto warns = [](const Scene& scene) {
     return describe_plan(scene, 1).find("is not resolved below 2 h") != std::string::npos;
