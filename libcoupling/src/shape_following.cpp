@@ -37,9 +37,12 @@ constexpr double safety = 1.5, safety_with_inertia = 3.0;
 // dt = 1/24), with 10 and 0.8 of it a tank-treading vesicle of reduced volume 0.8 at ratio 6 stops at t = 13 (h = 0.1, dt = 1/32): surface
 // divergence 0.1 to 0.2 there at t = 8, against 0.001 with these. A thin or pointed end has less of the inner fluid around it than the half that the
 // model gives it. Price: errors of the step 1.3 to 2 times larger (still of second order).
-// Around a thin fluid, 1.5 is unstable at ratio 0.05 with dt of 1/12 to 1/96 if it is extrapolated, 3 is quiet from 1/24 on, and 4.5 from 1/48.
-// There 0.8 is owed: with half of it ratio 0.05 makes noise at 1/48.
-constexpr double safety_per_ratio = 3.0, viscous_memory = 0.5, safety_of_thin_fluid = 3.0, memory_of_thin_fluid = 0.8;
+// Around a thin fluid 9 in all at ratio 0.05, and 0.8 is owed: with half of it ratio 0.05 makes noise at 1/48. What an extrapolated viscosity leaves in the
+// fluid decays at 5 times the shear rate there whatever the step, so that short steps see many of their past corrections and small errors of
+// the answers feed on themselves: with 3 in all noise grows at 4 to 9 times the shear rate from round-off at steps of 1/96 and 1/192 (stop at
+// t = 4 to 7), with 7 at 1.5 times at 1/96, with 9 it falls at 1/48 to 1/384. At 1/24 it falls for ratio 0.2, and grows slowly for 0.05, where the plan
+// warns of that step (11 stops there). All of it owed is worse at 1/24, and quiet at 1/96 and 1/192 within 5 % of it only.
+constexpr double safety_per_ratio = 3.0, viscous_memory = 0.5, safety_of_thin_fluid = 16.0, memory_of_thin_fluid = 0.8;
 // Where a membrane is curved as strongly as its viscous layer (of thickness delta, delta^2 = mu/a) is thick, the fluid remembers less than around
 // a plane sheet: 1/(1 + (4 delta H)^2) of it, H being the greatest mean curvature. At sigma0 = 2000 all of it is unstable at the
 // rim of an ellipsoid 3:3:1 (Re = 1, 64^3, at any step), 0.6 of it is not; around a prolate of reduced volume 0.9 (Re = 10, 24^3, dt = 1/48)

@@ -157,15 +157,22 @@ TEST(HostileStarts, PlanWarnsOfAnImplicitContrastWithShapeFollowing) {
   EXPECT_FALSE(warns("20", "euler"));
 }
 
-// A vesicle that is 20 times thinner than the fluid around it: the viscosity that is extrapolated made waves of its membrane grow.
+// A vesicle that is 20 times thinner than the fluid around it: the viscosity that is extrapolated made waves of its membrane grow, with short steps
+// slowly and from round-off (4e-6 at t = 4.2 with a third of the present estimate of stiffness).
 TEST(HostileStarts, AThinFluidInsideIsQuiet) {
-  Scene scene =
-      small_scene({"fluid.viscosity_ratio=0.05", "time.markers=shape_following", "time.step=1/24", "time.end=4",
-                   "domain.lower=[-3, 0, -3]", "domain.cells=[24, 12, 24]", "domain.mirror=[false, true, false]"});
-  scene.membrane.sigma0 = 2000;
-  Simulation simulation(scene);
-  while (!simulation.finished()) simulation.step();
-  EXPECT_LT(simulation.measure()[0].surface_divergence_max, 0.1);
+  const auto noise_after = [](const char* step, const char* end) {
+    Scene scene =
+        small_scene({"fluid.viscosity_ratio=0.05", "time.markers=shape_following", std::string("time.step=") + step,
+                     std::string("time.end=") + end, "domain.lower=[-3, 0, -3]", "domain.cells=[24, 12, 24]",
+                     "domain.mirror=[false, true, false]"});
+    scene.membrane.sigma0 = 2000;
+    Simulation simulation(scene);
+    while (!simulation.finished()) simulation.step();
+    EXPECT_LT(simulation.measure()[0].surface_divergence_max, 0.1);
+    return simulation.velocity_noise(0);
+  };
+  EXPECT_LT(noise_after("1/48", "4"), 1e-5);
+  EXPECT_LT(noise_after("1/192", "4.5"), 1e-7);
 }
 
 }  // namespace
