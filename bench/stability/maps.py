@@ -123,8 +123,8 @@ SHAPES = Map(
 def _contrast_keys(how, dt, ratio):
     keys = {"time.step": dt, "fluid.viscosity_ratio": ratio, "membrane.sigma0": 2000}
     dear = half_of(SMALL) | {"time.end": 2}
-    if how == "no inertia":
-        return keys | {"fluid.inertia": "none"} | dear
+    if how == "no inertia":  # the dearest: 48 steps at most
+        return keys | {"fluid.inertia": "none"} | dear | {"time.end": min(2.0, 48 * number(dt))}
     treatment, _, markers = how.partition(", ")
     keys["fluid.viscous_treatment"] = treatment
     return keys | ({"time.markers": "implicit"} if markers else {}) | (dear if treatment == "implicit" else {})
