@@ -87,8 +87,7 @@ std::string blow_up_advice(const Scene& scene) {
   if (std::isfinite(limit))
     return fmt::format(
         "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: "
-        "reduce "
-        "time.step or membrane.sigma0; if g is well below that, {}",
+        "reduce time.step or membrane.sigma0; if g is well below that, {}",
         limit, scene.tension_number(), mesh);
   // docs/time_integration.md, shape_following: with inertia it has a limit, which falls with the Reynolds number.
   constexpr double limit_with_inertia = 80.0, least_reynolds_number = 0.5;

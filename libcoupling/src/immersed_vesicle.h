@@ -45,8 +45,8 @@ struct ImmersedVesicle {
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
   VelocityNoise noise;  ///< of velocities.membrane
-  Phases
-      moving;  ///< of the last advance(): all of it under mesh, and what of it are interpolation and thickness correction
+  /// Of the last advance(): all of it under mesh, and what of it are interpolation and thickness correction.
+  Phases moving;
   std::int64_t redistributions = 0;
   double area = 0.0, volume = 0.0;  ///< before an adaptive step
   bool is_current = false;          ///< whether geometry and forces are those of the membrane's state

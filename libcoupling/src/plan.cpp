@@ -80,12 +80,9 @@ void describe_cells_across(Plan& plan, const Scene& scene) {
 }
 
 // Of the start, between membranes and to the walls.
-void describe_distances(Plan& plan, const Scene& scene) {
+void describe_distances(Plan& plan, const Scene& scene, const std::vector<vesicle::VectorField>& markers) {
   const fluid::Grid grid = grid_of(scene);
-  std::vector<vesicle::VectorField> markers;
   std::vector<const vesicle::VectorField*> pointers;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
-    markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
   double to_walls = std::numeric_limits<double>::infinity();
   for (const vesicle::VectorField& of_one : markers) {
     pointers.push_back(&of_one);
@@ -102,13 +99,13 @@ void describe_distances(Plan& plan, const Scene& scene) {
 }
 
 // Of the start, of the vesicle that has least. Limits: docs/stability.md, reduced volume and capillary number.
-void describe_deflation(Plan& plan, const Scene& scene) {
+void describe_deflation(Plan& plan, const Scene& scene, const std::vector<vesicle::VectorField>& markers) {
   constexpr double least_stable = 0.65, least_stable_in_fast_flow = 0.9, fast_flow = 10.0;
   constexpr double quadrature = 2e-3;  // its error on few latitudes
   double least = 1.0, capillary_number = 0.0;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     vesicle::Surface surface(scene.latitudes(i));
-    surface.update(initial_markers(scene.vesicles[i], scene.latitudes(i)));
+    surface.update(markers[i]);
     const double deflated = vesicle::reduced_volume(surface.area(), surface.volume());
     if (deflated < least) std::tie(least, capillary_number) = std::pair{deflated, scene.capillary_number(i)};
   }
@@ -147,8 +144,11 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
             scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
   describe_cells_across(plan, scene);
-  describe_deflation(plan, scene);
-  describe_distances(plan, scene);
+  std::vector<vesicle::VectorField> markers;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
+  describe_deflation(plan, scene, markers);
+  describe_distances(plan, scene, markers);
   plan.line("time", "{}", describe_time(scene));
   constexpr double far = 10.0;
   const double longest = scene.time.adaptive ? scene.time.largest_step : scene.time.step;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/plan.h"
 #include "coupling/simulation.h"
@@ -143,6 +144,16 @@ TEST(HostileStarts, StableTensionNumberKnowsTheIntegrator) {
   EXPECT_EQ(limit({"membrane.g=2", "time.markers=strain_relaxation"}), 49.0);
   EXPECT_TRUE(plan_says({"membrane.g=4", "time.markers=ab2"}, "stable below about 3.5  <- WARNING: beyond it"));
   EXPECT_THROW(small_scene({"membrane.g=8.5", "time.markers=ab2"}), SceneError);
+}
+
+// With shape following g has a limit where inertia counts, and none elsewhere.
+TEST(HostileStarts, AdviceSpeaksOfGOnlyWhereItHasALimit) {
+  const auto advice = [](const char* reynolds_number) {
+    return blow_up_advice(small_scene(
+        {"time.markers=shape_following", "membrane.g=200", std::string("fluid.reynolds_number=") + reynolds_number}));
+  };
+  EXPECT_NE(advice("1").find("this scene has g = 200"), std::string::npos);
+  EXPECT_EQ(advice("1e-3").find("g ="), std::string::npos);
 }
 
 TEST(HostileStarts, PlanWarnsOfAnImplicitContrastWithShapeFollowing) {
