@@ -1,4 +1,8 @@
 # Every choice a builder has, in one place.
+set(vesiflow_auto_at_top OFF)
+if(PROJECT_IS_TOP_LEVEL)
+  set(vesiflow_auto_at_top AUTO)
+endif()
 set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
   "Libraries to build: any of vesicle, fluid, coupling (coupling needs the other two)")
 set(VESIFLOW_ARCH "native" CACHE STRING
@@ -8,13 +12,12 @@ option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (libcouplin
 option(VESIFLOW_WITH_CHOLMOD "Build the sparse direct solver, for small elliptic problems (libfluid)" ON)
 set(VESIFLOW_WITH_SUNDIALS "AUTO" CACHE STRING
   "Build what uses SUNDIALS: time.markers = arkode and implicit (libcoupling), methods kinsol and cvode (app equilibrium_shape): ON, OFF, or AUTO, if SUNDIALS is found")
-set_property(CACHE VESIFLOW_WITH_SUNDIALS PROPERTY STRINGS AUTO ON OFF)
 option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
 set(VESIFLOW_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= names them: address,undefined or thread")
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
 option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
-option(VESIFLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
-option(VESIFLOW_BUILD_BENCH "Build the benchmarks" OFF)
+set(VESIFLOW_BUILD_TESTS ${vesiflow_auto_at_top} CACHE STRING "Build the tests: ON, OFF, or AUTO, if GoogleTest is found")
+set(VESIFLOW_BUILD_BENCH OFF CACHE STRING "Build the benchmarks: ON, OFF, or AUTO, if Google Benchmark is found")
 option(VESIFLOW_BUILD_FUZZ "Build the fuzz targets, and all else with coverage counters (clang only)" OFF)
 
 if(VESIFLOW_ARCH STREQUAL "native" AND NOT VESIFLOW_NATIVE)
@@ -29,18 +32,24 @@ if("coupling" IN_LIST VESIFLOW_LIBRARIES)
   endforeach()
 endif()
 
-if(VESIFLOW_WITH_SUNDIALS STREQUAL "AUTO")
-  set(VESIFLOW_WITH_SUNDIALS OFF)
-  if("coupling" IN_LIST VESIFLOW_LIBRARIES OR (VESIFLOW_BUILD_APPS AND "vesicle" IN_LIST VESIFLOW_LIBRARIES))
-    find_package(SUNDIALS 6...<7 QUIET COMPONENTS arkode kinsol cvode)
-    if(SUNDIALS_FOUND)
-      set(VESIFLOW_WITH_SUNDIALS ON)
-    else()
-      message(STATUS "SUNDIALS 6 is not there, so this build refuses time.markers = arkode and implicit and the methods kinsol and "
-        "cvode of equilibrium_shape; to have them, install it (Debian: libsundials-dev) and configure again")
+# vesiflow_resolve_auto(OPTION ABSENT PACKAGE ...): an option that is AUTO becomes ON where find_package(PACKAGE ...) finds something, and
+# elsewhere OFF, with a line that says what the build does without. Whoever says ON is told by the error of find_package.
+function(vesiflow_resolve_auto option absent package)
+  if(${option} STREQUAL "AUTO")
+    find_package(${package} QUIET ${ARGN})
+    if(NOT ${package}_FOUND)
+      message(STATUS "${package} is not there: ${absent}. To have it, scripts/install-deps.sh --test, and configure again")
     endif()
+    set(${option} ${${package}_FOUND} PARENT_SCOPE)
   endif()
+endfunction()
+
+if("coupling" IN_LIST VESIFLOW_LIBRARIES OR ("vesicle" IN_LIST VESIFLOW_LIBRARIES AND VESIFLOW_BUILD_APPS))
+  vesiflow_resolve_auto(VESIFLOW_WITH_SUNDIALS "no time.markers = arkode and implicit, no methods kinsol and cvode"
+    SUNDIALS 6...<7 COMPONENTS arkode kinsol cvode)
 endif()
+vesiflow_resolve_auto(VESIFLOW_BUILD_TESTS "no tests" GTest)
+vesiflow_resolve_auto(VESIFLOW_BUILD_BENCH "no benchmarks" benchmark)
 
 if(VESIFLOW_BUILD_FUZZ AND NOT (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND VESIFLOW_SANITIZE))
   message(FATAL_ERROR "VESIFLOW_BUILD_FUZZ needs clang and VESIFLOW_SANITIZE: configure with --preset fuzz")

@@ -5,8 +5,8 @@
 #   --dev    also the tools of the format and script checks, the fuzz targets and the sanitizers
 # Knows Debian 12 and later; elsewhere it only checks, and names what is missing.
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
-. scripts/lib.sh
 
 packages=(
   g++ cmake ninja-build

@@ -2,6 +2,8 @@
 # Installs a build to a scratch prefix and builds programs outside the tree against it, without -march=native.
 # usage: tests/install_consumer/check.sh BUILD_DIR
 set -euo pipefail
+. "$(dirname "$0")/../../scripts/lib.sh"
+[[ ${1:-} != -* ]] || no_more_options "$1"
 build=$(realpath "${1:?usage: check.sh BUILD_DIR}")
 here=$(realpath "$(dirname "$0")")
 scratch=$(mktemp -d)
