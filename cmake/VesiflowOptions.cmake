@@ -1,8 +1,4 @@
 # Every choice a builder has, in one place.
-set(vesiflow_auto_at_top OFF)
-if(PROJECT_IS_TOP_LEVEL)
-  set(vesiflow_auto_at_top AUTO)
-endif()
 set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
   "Libraries to build: any of vesicle, fluid, coupling (coupling needs the other two)")
 set(VESIFLOW_ARCH "native" CACHE STRING
@@ -16,7 +12,7 @@ option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
 set(VESIFLOW_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= names them: address,undefined or thread")
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
 option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
-set(VESIFLOW_BUILD_TESTS ${vesiflow_auto_at_top} CACHE STRING "Build the tests: ON, OFF, or AUTO, if GoogleTest is found")
+set(VESIFLOW_BUILD_TESTS AUTO CACHE STRING "Build the tests: ON, OFF, or AUTO, if GoogleTest is found and no other project includes this one")
 set(VESIFLOW_BUILD_BENCH OFF CACHE STRING "Build the benchmarks: ON, OFF, or AUTO, if Google Benchmark is found")
 option(VESIFLOW_BUILD_FUZZ "Build the fuzz targets, and all else with coverage counters (clang only)" OFF)
 
@@ -32,24 +28,33 @@ if("coupling" IN_LIST VESIFLOW_LIBRARIES)
   endforeach()
 endif()
 
-# vesiflow_resolve_auto(OPTION ABSENT PACKAGE ...): an option that is AUTO becomes ON where find_package(PACKAGE ...) finds something, and
-# elsewhere OFF, with a line that says what the build does without. Whoever says ON is told by the error of find_package.
-function(vesiflow_resolve_auto option absent package)
-  if(${option} STREQUAL "AUTO")
-    find_package(${package} QUIET ${ARGN})
-    if(NOT ${package}_FOUND)
-      message(STATUS "${package} is not there: ${absent}. To have it, scripts/install-deps.sh --test, and configure again")
-    endif()
-    set(${option} ${${package}_FOUND} PARENT_SCOPE)
+# vesiflow_resolve_auto(OPTION LOST PACKAGE ...): an option that is AUTO becomes ON where find_package(PACKAGE ...) finds something; elsewhere
+# OFF, with a line that says what is lost. ON where nothing is found is an error.
+function(vesiflow_resolve_auto option lost package)
+  if(NOT ${option})
+    return()
+  endif()
+  find_package(${package} QUIET ${ARGN})
+  if(${package}_FOUND)
+    set(${option} ON PARENT_SCOPE)
+  elseif(${option} STREQUAL "AUTO")
+    set(${option} OFF PARENT_SCOPE)
+    message(STATUS "${package} is not there, so there are no ${lost} (scripts/install-deps.sh --test installs it; then configure again)")
+  else()
+    message(FATAL_ERROR "${option}=${${option}}: ${package} is not there; scripts/install-deps.sh --test installs it, and with AUTO or OFF "
+      "the build goes without ${lost}")
   endif()
 endfunction()
 
 if("coupling" IN_LIST VESIFLOW_LIBRARIES OR ("vesicle" IN_LIST VESIFLOW_LIBRARIES AND VESIFLOW_BUILD_APPS))
-  vesiflow_resolve_auto(VESIFLOW_WITH_SUNDIALS "no time.markers = arkode and implicit, no methods kinsol and cvode"
+  vesiflow_resolve_auto(VESIFLOW_WITH_SUNDIALS "time.markers = arkode and implicit and no methods kinsol and cvode"
     SUNDIALS 6...<7 COMPONENTS arkode kinsol cvode)
 endif()
-vesiflow_resolve_auto(VESIFLOW_BUILD_TESTS "no tests" GTest)
-vesiflow_resolve_auto(VESIFLOW_BUILD_BENCH "no benchmarks" benchmark)
+if(VESIFLOW_BUILD_TESTS STREQUAL "AUTO" AND NOT PROJECT_IS_TOP_LEVEL)
+  set(VESIFLOW_BUILD_TESTS OFF)
+endif()
+vesiflow_resolve_auto(VESIFLOW_BUILD_TESTS "tests" GTest)
+vesiflow_resolve_auto(VESIFLOW_BUILD_BENCH "benchmarks" benchmark)
 
 if(VESIFLOW_BUILD_FUZZ AND NOT (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND VESIFLOW_SANITIZE))
   message(FATAL_ERROR "VESIFLOW_BUILD_FUZZ needs clang and VESIFLOW_SANITIZE: configure with --preset fuzz")

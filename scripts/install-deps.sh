@@ -47,14 +47,15 @@ install_on_debian() {
   if [[ $(id -u) -ne 0 ]]; then
     # Asks for a password only where someone can type one.
     if ! sudo -n true 2>/dev/null && ! { [[ -t 0 ]] && sudo -v; } 2>/dev/null; then
-      echo "Packages are missing, and only root can install them; ask for: ${install[*]}" >&2
+      echo "Packages are missing, and only root can install them; ask the administrator for: ${install[*]}" >&2
       return 1
     fi
     root=(sudo)
   fi
   # A fresh image has no package lists. A failing third-party source must not stop us; a failing install does.
+  echo "Missing packages: ${missing[*]}"
   "${root[@]}" apt-get update -qq >/dev/null 2>&1 || true
-  logged build/install-deps.log "Installing ${missing[*]}" "${root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}"
+  logged build/install-deps.log "Installing them" "${root[@]}" env DEBIAN_FRONTEND=noninteractive "${install[@]}"
 }
 
 # Elsewhere: does the preprocessor find the headers, the shell the commands, a python the modules?

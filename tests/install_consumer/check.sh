@@ -33,10 +33,10 @@ consume() {
   echo "install consumer: $1 built and ran"
 }
 
-# refused MESSAGE SOURCE: does not configure, and says why.
+# refused MESSAGE SOURCE OPTION...: does not configure, and says why.
 refused() {
   rm -rf "$scratch/refused"
-  if (configure "$2" refused) 2>/dev/null || ! tr -s '\n ' ' ' <"$scratch/log" | grep -q "$1"; then
+  if (configure "$2" refused "${@:3}") 2>/dev/null || ! tr -s '\n ' ' ' <"$scratch/log" | grep -q "$1"; then
     cat "$scratch/log" >&2
     echo "$2 was not refused with: $1" >&2
     return 1
@@ -63,8 +63,15 @@ for package in Eigen3 FFTW3 fmt; do
 done
 echo "install consumer: CMAKE_MODULE_PATH is left as it was"
 
+# GoogleTest, Google Benchmark and SUNDIALS need not be there, unless what they are for is asked for.
+absent=()
+for package in GTest benchmark SUNDIALS; do
+  absent+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+done
+configure "$here/../.." partial "${absent[@]}" -DVESIFLOW_BUILD_BENCH=AUTO
+refused "VESIFLOW_WITH_SUNDIALS=ON: SUNDIALS is not there" "$here/../.." "${absent[@]}" -DVESIFLOW_WITH_SUNDIALS=ON
+
 # An install takes what is built: of a new build nothing, and then libfluid without the other libraries and without apps.
-configure "$here/../.." partial -DVESIFLOW_BUILD_TESTS=OFF
 prefix=$scratch/partial_prefix
 quietly cmake --install "$scratch/partial" --prefix "$prefix"
 refused "no component 'fluid'" "$here/fluid"
