@@ -50,12 +50,12 @@ show_steps() {
 
 # Of a log: the first failure of a build or of the tests, and the last lines.
 show_failure() {
-  sed -nE '/^FAILED: |\*\*\*(Failed|Timeout|Exception)/,$p' "$1" | head -n 40
+  sed -nE '/^FAILED: |\*\*\*(Failed|Timeout|Exception)/,$p' "$1" | head -n 40 || true
   echo "... and the last lines of $1, which has it all:"
   tail -n 20 "$1"
 }
 
 # The widest of the levels of x86-64 that this machine runs, as -march= names it; elsewhere nothing. (glibc's loader knows.)
 widest_level() {
-  /lib64/ld-linux-x86-64.so.2 --help 2>/dev/null | sed -n 's/^ *\(x86-64-v[0-9]\) (supported.*/\1/p' | head -n 1
+  /lib64/ld-linux-x86-64.so.2 --help 2>/dev/null | sed -n 's/^ *\(x86-64-v[0-9]\) (supported.*/\1/p' | head -n 1 || true
 }
