@@ -1,7 +1,6 @@
 # The package behind find_package(Vesiflow COMPONENTS ...): one export set per library, so that a component can
-# be installed without the others and asks for its own dependencies only.
+# be installed without the others and asks for its own dependencies only. (The libraries' own files: vesiflow_library().)
 include(CMakePackageConfigHelpers)
-set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Vesiflow)
 set(find_modules "")
 
 # How a consumer finds what the exported targets link to, by namespace of the target.
@@ -35,22 +34,21 @@ foreach(library IN LISTS VESIFLOW_LIBRARIES)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/Vesiflow_${library}_needs.cmake
     CONTENT "set(Vesiflow_${library}_needs \"${needs}\")\n")
   set_target_properties(vesiflow_${library} PROPERTIES INSTALL_RPATH "$ORIGIN")  # shared libraries find their siblings
-  install(FILES ${PROJECT_BINARY_DIR}/Vesiflow_${library}_needs.cmake DESTINATION ${config_dir})
-  install(EXPORT Vesiflow_${library} NAMESPACE Vesiflow:: DESTINATION ${config_dir})
 endforeach()
 
 # Of the modules that find these packages, some are ours.
 list(REMOVE_DUPLICATES find_modules)
 foreach(module IN LISTS find_modules)
   if(EXISTS ${module})
-    install(FILES ${module} DESTINATION ${config_dir})
+    install(FILES ${module} DESTINATION ${VESIFLOW_CONFIG_DIR})
   endif()
 endforeach()
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/VesiflowConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/VesiflowConfig.cmake INSTALL_DESTINATION ${config_dir}
+  ${PROJECT_BINARY_DIR}/VesiflowConfig.cmake INSTALL_DESTINATION ${VESIFLOW_CONFIG_DIR}
   NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/VesiflowConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/VesiflowConfig.cmake ${PROJECT_BINARY_DIR}/VesiflowConfigVersion.cmake
-  DESTINATION ${config_dir})
+  ${CMAKE_CURRENT_LIST_DIR}/VesiflowComponents.cmake
+  DESTINATION ${VESIFLOW_CONFIG_DIR})

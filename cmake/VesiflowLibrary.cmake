@@ -1,6 +1,7 @@
 # vesiflow_library(NAME): the target vesiflow_NAME, for users Vesiflow::NAME, from lib<NAME>/include and lib<NAME>/src, with the
 # project's language level, warnings and code generation. Callers add sources and link dependencies.
 include(GNUInstallDirs)
+set(VESIFLOW_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Vesiflow)
 
 function(vesiflow_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -11,7 +12,10 @@ function(vesiflow_compile_options target)
     $<$<CONFIG:Release>:-O3>
     # It knows no GCC ivdep, and tells of loops that it does not vectorise.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas> $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>
-    $<$<BOOL:${VESIFLOW_NATIVE}>:-march=native>
+    $<$<BOOL:${VESIFLOW_ARCH}>:-march=${VESIFLOW_ARCH}>
+    # GCC 12.0 to 12.2 make the undefined registers in their own headers of AVX-512 as `__m512d y = y` and then warn of it wherever
+    # that is inlined (GCC bug 105593). Without this warning such a line is taken as meant; all else uninitialised is still found.
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,12.3>>:-Wno-init-self>
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)
   if(VESIFLOW_SANITIZE)
@@ -49,7 +53,14 @@ function(vesiflow_library name)
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+  # An install takes what is built. This return leaves the library's own script of the install, and so skips what follows.
+  install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
+    message(STATUS \"lib${name} is not built, so it is not installed\")
+    return()
+  endif()")
   install(TARGETS ${target} EXPORT Vesiflow_${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow)
+  install(EXPORT Vesiflow_${name} NAMESPACE Vesiflow:: DESTINATION ${VESIFLOW_CONFIG_DIR})
+  install(FILES ${PROJECT_BINARY_DIR}/Vesiflow_${name}_needs.cmake DESTINATION ${VESIFLOW_CONFIG_DIR})  # by VesiflowInstall.cmake
 endfunction()

@@ -1,17 +1,24 @@
 # Every choice a builder has, in one place.
 set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
   "Libraries to build: any of vesicle, fluid, coupling (coupling needs the other two)")
-option(VESIFLOW_NATIVE "Use this machine's vector instructions (-march=native)" ON)
+set(VESIFLOW_ARCH "native" CACHE STRING
+  "Processors to compile for, as -march= names them: native (this machine), x86-64-v3 ...; empty: all that the compiler's default covers")
+option(VESIFLOW_NATIVE "Let VESIFLOW_ARCH be native; OFF makes that empty" ON)
 option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (libcoupling)" ON)
 option(VESIFLOW_WITH_CHOLMOD "Build the sparse direct solver, for small elliptic problems (libfluid)" ON)
-option(VESIFLOW_WITH_SUNDIALS "Build what uses SUNDIALS: time.markers = arkode and implicit (libcoupling), methods kinsol and cvode (app equilibrium_shape)" ON)
+set(VESIFLOW_WITH_SUNDIALS "AUTO" CACHE STRING
+  "Build what uses SUNDIALS: time.markers = arkode and implicit (libcoupling), methods kinsol and cvode (app equilibrium_shape): ON, OFF, or AUTO, if SUNDIALS is found")
 option(VESIFLOW_WERROR "Treat compiler warnings as errors" OFF)
 set(VESIFLOW_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= names them: address,undefined or thread")
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
 option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
-option(VESIFLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
-option(VESIFLOW_BUILD_BENCH "Build the benchmarks" OFF)
+set(VESIFLOW_BUILD_TESTS AUTO CACHE STRING "Build the tests: ON, OFF, or AUTO, if GoogleTest is found and no other project includes this one")
+set(VESIFLOW_BUILD_BENCH OFF CACHE STRING "Build the benchmarks: ON, OFF, or AUTO, if Google Benchmark is found")
 option(VESIFLOW_BUILD_FUZZ "Build the fuzz targets, and all else with coverage counters (clang only)" OFF)
+
+if(VESIFLOW_ARCH STREQUAL "native" AND NOT VESIFLOW_NATIVE)
+  set(VESIFLOW_ARCH "")
+endif()
 
 if("coupling" IN_LIST VESIFLOW_LIBRARIES)
   foreach(needed vesicle fluid)
@@ -20,6 +27,34 @@ if("coupling" IN_LIST VESIFLOW_LIBRARIES)
     endif()
   endforeach()
 endif()
+
+# vesiflow_resolve_auto(OPTION LOST PACKAGE ...): an option that is AUTO becomes ON where find_package(PACKAGE ...) finds something; elsewhere
+# OFF, with a line that says what is lost. ON where nothing is found is an error.
+function(vesiflow_resolve_auto option lost package)
+  if(NOT ${option})
+    return()
+  endif()
+  find_package(${package} QUIET ${ARGN})
+  if(${package}_FOUND)
+    set(${option} ON PARENT_SCOPE)
+  elseif(${option} STREQUAL "AUTO")
+    set(${option} OFF PARENT_SCOPE)
+    message(STATUS "${package} is not there, so there are no ${lost} (scripts/install-deps.sh --test installs it; then configure again)")
+  else()
+    message(FATAL_ERROR "${option}=${${option}}: ${package} is not there; scripts/install-deps.sh --test installs it, and with AUTO or OFF "
+      "the build goes without ${lost}")
+  endif()
+endfunction()
+
+if("coupling" IN_LIST VESIFLOW_LIBRARIES OR ("vesicle" IN_LIST VESIFLOW_LIBRARIES AND VESIFLOW_BUILD_APPS))
+  vesiflow_resolve_auto(VESIFLOW_WITH_SUNDIALS "time.markers = arkode and implicit and no methods kinsol and cvode"
+    SUNDIALS 6...<7 COMPONENTS arkode kinsol cvode)
+endif()
+if(VESIFLOW_BUILD_TESTS STREQUAL "AUTO" AND NOT PROJECT_IS_TOP_LEVEL)
+  set(VESIFLOW_BUILD_TESTS OFF)
+endif()
+vesiflow_resolve_auto(VESIFLOW_BUILD_TESTS "tests" GTest)
+vesiflow_resolve_auto(VESIFLOW_BUILD_BENCH "benchmarks" benchmark)
 
 if(VESIFLOW_BUILD_FUZZ AND NOT (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND VESIFLOW_SANITIZE))
   message(FATAL_ERROR "VESIFLOW_BUILD_FUZZ needs clang and VESIFLOW_SANITIZE: configure with --preset fuzz")

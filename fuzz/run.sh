@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Runs the fuzz targets one after the other and says how many inputs each tried and what it found.
 # usage: fuzz/run.sh [SECONDS] [TARGET...]     each target for so long, 60 s unless told; all targets unless named
-#        fuzz/run.sh --short [TARGET...]       the same few thousand inputs every time, for CI
+#        fuzz/run.sh --short [TARGET...]       the same few thousand inputs every time, in less than a minute
 # Builds preset fuzz. Findings and what was learnt (new inputs) go to out/fuzz/TARGET; fuzz/corpus is only read.
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
 
 seconds=60
@@ -15,8 +16,7 @@ elif [[ ${1:-} =~ ^[0-9]+$ ]]; then
   seconds=$1
   shift
 elif [[ ${1:-} == -* ]]; then
-  sed -n '2,5s/^# //p' "$0"
-  exit 2
+  no_more_options "$1"
 fi
 targets=("$@")
 [[ ${#targets[@]} -gt 0 ]] || targets=(coefficients mesh scene state checkpoint_bytes checkpoint_contents)
@@ -24,8 +24,8 @@ targets=("$@")
 # Executions of a short run: some seconds each.
 declare -A executions=([coefficients]=10000 [mesh]=20000 [scene]=2000 [state]=100 [checkpoint_bytes]=150 [checkpoint_contents]=200)
 
-cmake --preset fuzz >/dev/null
-cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"
+logged build/fuzz/configure.log "Configuring" cmake --preset fuzz
+logged build/fuzz/build.log "Compiling fuzz targets" cmake --build build/fuzz --target "${targets[@]/#/fuzz_}"
 
 export OMP_NUM_THREADS=1 LSAN_OPTIONS=suppressions=fuzz/lsan.supp:print_suppressions=0
 export ASAN_SYMBOLIZER_PATH="${ASAN_SYMBOLIZER_PATH:-$(command -v llvm-symbolizer || true)}"

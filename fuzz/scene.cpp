@@ -108,7 +108,7 @@ std::string random_override(std::minstd_rand& random) {
     std::vector<std::string> words;
     std::istringstream list(key.allowed);
     for (std::string word; std::getline(list >> std::ws, word, ',');) words.push_back(word);
-    value = "\"" + pick(words) + "\"";
+    value = '"' + pick(words) + '"';
   }
   return "\n--set " + key.name + "=" + value + "\n";
 }

@@ -2,7 +2,9 @@
 # Checks who includes whom: see "The libraries" in CONTRIBUTING.md.
 # usage: scripts/check_dependencies.sh
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
+no_more_options "$@"
 failed=0
 
 # forbid RULE PATTERN FOLDER...: no #include in the folders names what matches the pattern.

@@ -2,7 +2,9 @@
 # Compiles every public header alone, and included twice, seeing only the libraries its own may use.
 # usage: scripts/check_headers.sh
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
+no_more_options "$@"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

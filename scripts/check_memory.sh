@@ -2,9 +2,11 @@
 # Runs a few steps of the coupled method under valgrind: shapes read from files, every kind of output, and a restart.
 # usage: scripts/check_memory.sh      (builds preset valgrind)
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
-cmake --preset valgrind >/dev/null
-cmake --build build/valgrind --target vesicles
+no_more_options "$@"
+logged build/valgrind/configure.log "Configuring" cmake --preset valgrind
+logged build/valgrind/build.log "Compiling vesicles" cmake --build build/valgrind --target vesicles
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

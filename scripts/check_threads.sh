@@ -5,11 +5,16 @@
 # clang, because its OpenMP tells the sanitizer who waits for whom (the tool Archer); with gcc's every parallel loop looks
 # like a race. Libraries without instrumentation (FFTW, BLAS, HDF5) are not looked at.
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 targets=(vesicles fluid_tests)
-[[ ${1:-} != --runs-only ]] || targets=(vesicles)
-cmake --preset tsan >/dev/null
-cmake --build build/tsan --target "${targets[@]}"
+if [[ ${1:-} == --runs-only ]]; then
+  targets=(vesicles)
+  shift
+fi
+no_more_options "$@"
+logged build/tsan/configure.log "Configuring" cmake --preset tsan
+logged build/tsan/build.log "Compiling ${targets[*]}" cmake --build build/tsan --target "${targets[@]}"
 
 archer=$(clang++ -print-resource-dir)/../../libarcher.so
 [[ -e $archer ]] || { echo "libarcher.so is missing: install clang's OpenMP (Debian: libomp-dev)" >&2; exit 1; }

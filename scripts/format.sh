@@ -2,7 +2,14 @@
 # Formats every C++ file of the tree, or with --check only says which ones differ.
 # usage: scripts/format.sh [--check]
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
+arguments=(-i)
+if [[ ${1:-} == --check ]]; then
+  arguments=(--dry-run --Werror)
+  shift
+fi
+no_more_options "$@"
 
 # Releases of clang-format disagree in details; 14 is Debian 12's and the one that is checked.
 format=$(command -v clang-format-14 || command -v clang-format || true)
@@ -11,14 +18,6 @@ if [[ -z $format ]] || ! "$format" --version | grep -q 'version 14\.'; then
   exit 1
 fi
 
-case "${1:-}" in
-  "") arguments=(-i) ;;
-  --check) arguments=(--dry-run --Werror) ;;
-  *)
-    sed -n '2,3s/^# //p' "$0" >&2
-    exit 2
-    ;;
-esac
 git ls-files -z --cached --others --exclude-standard '*.h' '*.cpp' |
   while IFS= read -r -d '' file; do
     # A file that is deleted but still in the index has nothing to format.

@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
 # Runs a python that has numpy, matplotlib and h5py: the distribution's, which another python3 in PATH may hide.
+# usage: scripts/python.sh SCRIPT [ARGUMENT...], or any other arguments of python
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
+[[ $# -ne 1 || $1 != --help ]] || no_more_options --help
 for python in /usr/bin/python3 python3; do
   if "$python" -c 'import numpy, matplotlib, h5py' 2>/dev/null; then
     exec "$python" "$@"

@@ -2,24 +2,21 @@
 # From a fresh clone to pictures of a tank-treading vesicle, in a few minutes.
 # usage: scripts/quickstart.sh [--threads N]      (default: all cores, but at most 2: the case is small)
 set -euo pipefail
+. "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
 threads=$(nproc)
 ((threads <= 2)) || threads=2
-case "${1:-}" in
-  "") ;;
-  --threads) threads=${2:?--threads needs a number} ;;
-  *)
-    sed -n '2,3s/^# //p' "$0"
-    [[ $1 == --help ]] && exit 0
-    exit 2
-    ;;
-esac
+if [[ ${1:-} == --threads ]]; then
+  threads=${2:?--threads needs a number}
+  shift 2
+fi
+no_more_options "$@"
 out=out/tank_treading_coarse
 
 scripts/install-deps.sh
-cmake --preset release
-cmake --build --preset release --target shear_flow
+logged build/release/configure.log "Configuring build/release" cmake --preset release
+logged build/release/build.log "Compiling shear_flow" cmake --build --preset release --target shear_flow
 build/release/apps/shear_flow scenes/tank_treading_coarse.toml --out "$out" --threads "$threads"
 scripts/python.sh tools/plot_run.py "$out"
 

@@ -3,7 +3,9 @@
 # validation/foundation.md.
 # usage: validation/foundation.sh [APPS_DIR]      (default build/release/apps; results in out/validation)
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
+[[ ${1:-} != -* ]] || no_more_options "$1"
 apps=${1:-build/release/apps}
 out=out/validation
 

@@ -3,7 +3,9 @@
 # fifteen minutes on one core); writes the table to validation/redistribution.md.
 # usage: validation/redistribution.sh [APPS_DIR]      (default build/release/apps; results in out/redistribution)
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
+[[ ${1:-} != -* ]] || no_more_options "$1"
 apps=${1:-build/release/apps}
 out=out/redistribution
 

@@ -4,7 +4,9 @@
 # The ducts take a minute; the cavity takes most of an hour on one core, nearly all of it the grid of 96^3.
 # usage: validation/steady_flows.sh [APPS_DIR]      (default build/release/apps; results in out/validation)
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
+[[ ${1:-} != -* ]] || no_more_options "$1"
 apps=${1:-build/release/apps}
 out=out/validation
 threads=(--threads 1 --quiet)

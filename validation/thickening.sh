@@ -5,7 +5,9 @@
 # start near their final inclination. Prints the tables of validation/thickening.md and writes thickening.json beside the runs.
 # usage: validation/thickening.sh [APPS_DIR]      (default build/release/apps; results in out/thickening)
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
+[[ ${1:-} != -* ]] || no_more_options "$1"
 apps=${1:-build/release/apps}
 out=${OUT:-out/thickening}
 mkdir -p "$out"

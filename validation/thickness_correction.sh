@@ -5,7 +5,9 @@
 # validation/thickening.md and writes thickness_correction.json beside the runs.
 # usage: validation/thickness_correction.sh [BUILD_DIR] [GROUP...]   (default build/release, all groups: modes tank ratio5 re1 tumbling)
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
+[[ ${1:-} != -* ]] || no_more_options "$1"
 build=${1:-build/release}
 out=${OUT:-out/thickness_correction}
 groups=("${@:2}")

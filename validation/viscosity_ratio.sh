@@ -4,7 +4,9 @@
 # core). Prints the second table of validation/viscosity_ratio.md.
 # usage: validation/viscosity_ratio.sh [APPS_DIR]      (default build/release/apps; results in out/viscosity_ratio)
 set -euo pipefail
+. "$(dirname "$0")/../scripts/lib.sh"
 cd "$(dirname "$0")/.."
+[[ ${1:-} != -* ]] || no_more_options "$1"
 apps=${1:-build/release/apps}
 out=${OUT:-out/viscosity_ratio}
 

@@ -2,10 +2,13 @@
 # Installs a build to a scratch prefix and builds programs outside the tree against it, without -march=native.
 # usage: tests/install_consumer/check.sh BUILD_DIR
 set -euo pipefail
+. "$(dirname "$0")/../../scripts/lib.sh"
+[[ ${1:-} != -* ]] || no_more_options "$1"
 build=$(realpath "${1:?usage: check.sh BUILD_DIR}")
 here=$(realpath "$(dirname "$0")")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
+prefix=$scratch/prefix
 
 # Says nothing unless the command fails.
 quietly() {
@@ -16,10 +19,10 @@ quietly() {
   }
 }
 
-# configure SOURCE NAME OPTION...
+# configure SOURCE NAME OPTION...: against what is installed in $prefix.
 configure() {
   quietly cmake -S "$1" -B "$scratch/$2" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="-Wall -Wextra" \
-    -DCMAKE_PREFIX_PATH="$scratch/prefix" "${@:3}"
+    -DCMAKE_PREFIX_PATH="$prefix" "${@:3}"
 }
 
 # consume COMPONENT PROGRAM OPTION...: whoever asks for a disabled package fails.
@@ -30,7 +33,17 @@ consume() {
   echo "install consumer: $1 built and ran"
 }
 
-quietly cmake --install "$build" --prefix "$scratch/prefix"
+# refused MESSAGE SOURCE OPTION...: does not configure, and says why.
+refused() {
+  rm -rf "$scratch/refused"
+  if (configure "$2" refused "${@:3}") 2>/dev/null || ! tr -s '\n ' ' ' <"$scratch/log" | grep -q "$1"; then
+    cat "$scratch/log" >&2
+    echo "$2 was not refused with: $1" >&2
+    return 1
+  fi
+}
+
+quietly cmake --install "$build" --prefix "$prefix"
 no_optional=()
 for package in HDF5 HDF5C SUNDIALS spdlog fmt; do
   no_optional+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
@@ -41,12 +54,33 @@ consume coupling extension
 
 # A component that is not there is refused by name.
 sed 's/COMPONENTS vesicle/COMPONENTS membrane/' "$here/vesicle/CMakeLists.txt" >"$scratch/CMakeLists.txt"
-if cmake -S "$scratch" -B "$scratch/unknown" -G Ninja -DCMAKE_PREFIX_PATH="$scratch/prefix" >"$scratch/log" 2>&1 ||
-  ! grep -q "no component 'membrane'" "$scratch/log"; then
-  cat "$scratch/log" >&2
-  echo "an unknown component was not refused with a clear message" >&2
-  exit 1
-fi
+refused "no component 'membrane'" "$scratch"
+
+# The consumer's module path is left as it was: where all is found, and where the first package is missing, or a later one.
+configure "$here/module_path" module_path -DFOUND=ON
+for package in Eigen3 FFTW3 fmt; do
+  configure "$here/module_path" "module_path_$package" -DFOUND=OFF "-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"
+done
+echo "install consumer: CMAKE_MODULE_PATH is left as it was"
+
+# GoogleTest, Google Benchmark and SUNDIALS need not be there, unless what they are for is asked for.
+absent=()
+for package in GTest benchmark SUNDIALS; do
+  absent+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+done
+configure "$here/../.." partial "${absent[@]}" -DVESIFLOW_BUILD_BENCH=AUTO
+refused "VESIFLOW_WITH_SUNDIALS=ON: SUNDIALS is not there" "$here/../.." "${absent[@]}" -DVESIFLOW_WITH_SUNDIALS=ON
+
+# An install takes what is built: of a new build nothing, and then libfluid without the other libraries and without apps.
+prefix=$scratch/partial_prefix
+quietly cmake --install "$scratch/partial" --prefix "$prefix"
+refused "no component 'fluid'" "$here/fluid"
+cp -P "$build"/libfluid/libvesiflow_fluid.* "$scratch/partial/libfluid"
+quietly cmake --install "$scratch/partial" --prefix "$prefix"
+refused "no component 'coupling' in .*; installed are: fluid " "$here/coupling"
+rm -r "$scratch/fluid"
+consume fluid channel
+echo "install consumer: an install takes what is built"
 
 # The same program with the source tree as a part of it, and with one library alone, which does without OpenMP.
 configure "$here/vesicle" subdirectory "${no_optional[@]}" -DVESIFLOW_SOURCE="$here/../.." \

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# The checks that take too long for every change, one after the other; says at the end which of them failed.
+# usage: scripts/nightly.sh [CHECK...]      (all checks unless named; a few hours on two cores)
+#   x86-64-v2, x86-64-v3, x86-64-v4, native   everything, benchmarks too, compiled for these processors with warnings as errors; the
+#                tests are run where this machine can
+#   sanitizers   all tests with the address and undefined-behaviour sanitizers
+#   threads      scripts/check_threads.sh
+#   memory       scripts/check_memory.sh
+#   fuzz         fuzz/run.sh, ten minutes each target
+#   tidy         clang-tidy on every source
+#   kills        validation/kills.py: 200 runs killed at any moment go on to the same bits
+#   faults       validation/faults.py: disks, permissions, descriptors and memory that run out
+#   hostile      validation/hostile_starts.py: starts that no one should choose
+set -euo pipefail
+. "$(dirname "$0")/lib.sh"
+cd "$(dirname "$0")/.."
+
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy kills faults hostile)
+for check in "$@"; do
+  [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
+done
+export OMP_WAIT_POLICY=passive
+
+# build NAME OPTION...: all targets, in build/NAME.
+build() {
+  logged "build/$1/configure.log" "Configuring build/$1" cmake -B "build/$1" "${@:2}"
+  logged "build/$1/build.log" "Compiling build/$1" cmake --build "build/$1"
+}
+
+# run_tests NAME OPTION...: those in build/NAME, which the options tell ctest.
+run_tests() {
+  logged "build/$1/ctest.log" "Testing build/$1" ctest "${@:2}" --parallel "$(nproc)" --output-on-failure --no-tests=error
+  grep 'tests passed' "build/$1/ctest.log"
+}
+
+build_for() {
+  build "nightly-$1" -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_ARCH="$1" -DVESIFLOW_WERROR=ON \
+    -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BUILD_BENCH=ON
+}
+
+# validate SCRIPT OPTION...: one of validation/, with the apps for this machine.
+validate() {
+  build_for native
+  scripts/python.sh "validation/$1.py" --apps build/nightly-native/apps "${@:2}"
+}
+
+perform() {
+  case $1 in
+    x86-64-v* | native)
+      build_for "$1"
+      if [[ $1 == x86-64-v* && $1 > $(widest_level) ]]; then
+        echo "This machine cannot run what is compiled for $1."
+      else
+        run_tests "nightly-$1" --test-dir "build/nightly-$1"
+      fi
+      ;;
+    sanitizers)
+      build asan-ubsan --preset asan-ubsan
+      run_tests asan-ubsan --preset asan-ubsan
+      ;;
+    threads) scripts/check_threads.sh ;;
+    memory) scripts/check_memory.sh ;;
+    fuzz) fuzz/run.sh 600 ;;
+    tidy) build tidy --preset tidy ;;
+    kills | faults) validate "$1" ;;
+    hostile) validate hostile_starts --jobs "$(nproc)" ;;
+  esac
+}
+
+if [[ $# -eq 1 ]]; then
+  perform "$1"
+  exit
+fi
+# Each in a process of its own, so that a failure ends this check and not the others.
+scripts/install-deps.sh --dev
+[[ $# -gt 0 ]] || set -- "${checks[@]}"
+failed=()
+for check in "$@"; do
+  echo "== $check"
+  scripts/nightly.sh "$check" || failed+=("$check")
+done
+if [[ ${#failed[@]} -gt 0 ]]; then
+  echo "failed: ${failed[*]}" >&2
+  exit 1
+fi
