@@ -16,13 +16,14 @@
 #include "atomic_file.h"
 #include "coupling/errors.h"
 #include "descriptor.h"
+#include "snapshot_series.h"
 #include "vesicle_record.h"
 
 namespace vesiflow::coupling {
 namespace {
 
 constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5", "vesicle.xdmf", "fluid.h5",
-                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures"};
+                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures",     snapshots_folder};
 
 long step_of(const std::string& row, const std::filesystem::path& file) {
   long step = 0;
@@ -75,20 +76,11 @@ std::string row_of(const vesicle::Diagnostics& diagnostics) {
 
 }  // namespace
 
-void prepare_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  const std::filesystem::path probe = directory / ".vesiflow_probe";
-  if (!error) {
-    const Descriptor descriptor(open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
-    if (!descriptor.valid()) error = {errno, std::generic_category()};
-  }
+void remove_leftovers(const std::filesystem::path& directory) {
   std::error_code ignored;
-  std::filesystem::remove(probe, ignored);
   for (const char* name : result_files) std::filesystem::remove(temporary_of(directory / name), ignored);
-  if (error)
-    throw FileError(fmt::format("{}: results cannot be written there: {}; choose another folder with --out",
-                                directory.string(), error.message()));
+  for (const auto& entry : std::filesystem::directory_iterator(directory / snapshots_folder, ignored))
+    if (is_temporary(entry.path())) std::filesystem::remove(entry.path(), ignored);
 }
 
 std::optional<std::filesystem::path> move_earlier_results(const std::filesystem::path& directory) {
