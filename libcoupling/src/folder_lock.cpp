@@ -3,14 +3,17 @@
 #include <fcntl.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <system_error>
 
 #include "atomic_file.h"
@@ -127,17 +130,35 @@ FileError cannot_be_written(const std::filesystem::path& folder, const std::stri
                                folder.string(), reason));
 }
 
-// Whether the file was made, with that text; false if it is there already.
-bool create(const std::filesystem::path& file, const std::string& text) {
+bool write_whole(const Descriptor& descriptor, const std::string& text) {
+  return descriptor.valid() && write_all(descriptor, text) && fsync(descriptor) == 0;
+}
+
+// Where a file system has no hard links.
+bool create_at_its_place(const std::filesystem::path& file, const std::string& text) {
   const Descriptor descriptor(open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
-  if (!descriptor.valid()) {
-    if (errno == EEXIST) return false;
-    throw cannot_be_written(file.parent_path(), system_message());
-  }
-  if (write_all(descriptor, text) && fsync(descriptor) == 0) return true;
+  if (!descriptor.valid() && errno == EEXIST) return false;
+  if (write_whole(descriptor, text)) return true;
   const std::string reason = system_message();
-  unlink(file.c_str());
+  if (descriptor.valid()) unlink(file.c_str());
   throw cannot_be_written(file.parent_path(), reason);
+}
+
+// Whether the file was made, with that text; false if it is there already. It is written under another name and linked: whatever
+// moment a kill comes at, the file is whole or not there.
+bool create(const std::filesystem::path& file, const std::string& text) {
+  std::string temporary = temporary_of(file.string() + ".XXXXXX").string();
+  const auto ending = static_cast<int>(temporary_of("").string().size());
+  const Descriptor descriptor(mkostemps(temporary.data(), ending, O_CLOEXEC));
+  const bool written = write_whole(descriptor, text);
+  const bool linked = written && fchmod(descriptor, 0644) == 0 && link(temporary.c_str(), file.c_str()) == 0;
+  const int error = errno;
+  if (descriptor.valid()) unlink(temporary.c_str());
+  if (linked) return true;
+  if (!written) throw cannot_be_written(file.parent_path(), std::generic_category().message(error));
+  // ENOENT: who has the folder has removed the temporary file.
+  if (error == EEXIST || error == ENOENT) return false;
+  return create_at_its_place(file, text);
 }
 
 void refuse(const std::filesystem::path& file, const std::optional<Owner>& owner, Fate fate) {
@@ -157,11 +178,19 @@ void refuse(const std::filesystem::path& file, const std::optional<Owner>& owner
 }
 
 // Removes the lock of a process that is gone, and no other. Several may try at once, of which a slow one could remove what a
-// fast one has put in its place: so only who holds a second file may.
-void remove_stale(const std::filesystem::path& file, const std::string& text) {
+// fast one has put in its place: so only who holds a second file may. Of that one too a killed process may leave what is stale; that
+// two then meet who remove it at once is left to FolderLock::require_held.
+void remove_stale(const std::filesystem::path& file, const std::string& text, const std::string& own) {
   const std::filesystem::path turn = file.string() + ".takeover";
-  if (!create(turn, Owner::here().text())) refuse(turn, std::nullopt, Fate::is_unknown);
-  if (text_of(file) == text) unlink(file.c_str());
+  if (create(turn, own)) {
+    if (text_of(file) == text) unlink(file.c_str());
+  } else {
+    const std::string found = text_of(turn);
+    if (found.empty() && !std::filesystem::exists(turn)) return;
+    const std::optional<Owner> owner = Owner::parse(found);
+    const Fate fate = owner ? fate_of(*owner) : Fate::is_unknown;
+    if (fate != Fate::is_gone) refuse(turn, owner, fate);
+  }
   unlink(turn.c_str());
 }
 
@@ -175,14 +204,14 @@ std::filesystem::path made(const std::filesystem::path& folder) {
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
-    : folder_(made(folder)), file_(folder_ / "run.lock"), text_(Owner::here().text()) {
+    : folder_(made(folder)), file_(folder_ / name), text_(Owner::here().text()) {
   while (!create(file_, text_)) {
     const std::string found = text_of(file_);
     if (found.empty() && !std::filesystem::exists(file_)) continue;  // its owner has just ended
     const std::optional<Owner> owner = Owner::parse(found);
     const Fate fate = owner ? fate_of(*owner) : Fate::is_unknown;
     if (fate != Fate::is_gone) refuse(file_, owner, fate);
-    remove_stale(file_, found);
+    remove_stale(file_, found, text_);
     taken_from_ = owner->who();
   }
 }

@@ -6,11 +6,13 @@
 
 namespace vesiflow::coupling {
 
-/// Keeps a folder for one run: a file `run.lock` that says whose it is. It is made with O_EXCL, which network file systems
-/// honour too, and needs no flock. What a process that is gone has left (same machine; no such process, or a later one with its
+/// Keeps a folder for one run: a file `run.lock` that says whose it is. It appears whole, by a hard link (or
+/// O_EXCL), which network file systems honour too, and needs no flock. What a process that is gone has left (same machine; no such process, or a later one with its
 /// number, or the machine has been started anew) is taken over; of another machine nobody can tell from here.
 class FolderLock {
  public:
+  static constexpr const char* name = "run.lock";
+
   /// Makes the folder if need be.
   /// \throws FileError when it cannot be written, or when another run holds it: which, since when, and what to do
   explicit FolderLock(const std::filesystem::path& folder);

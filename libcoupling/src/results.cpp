@@ -16,6 +16,7 @@
 #include "atomic_file.h"
 #include "coupling/errors.h"
 #include "descriptor.h"
+#include "folder_lock.h"
 #include "snapshot_series.h"
 #include "vesicle_record.h"
 
@@ -78,9 +79,14 @@ std::string row_of(const vesicle::Diagnostics& diagnostics) {
 
 void remove_leftovers(const std::filesystem::path& directory) {
   std::error_code ignored;
-  for (const char* name : result_files) std::filesystem::remove(temporary_of(directory / name), ignored);
-  for (const auto& entry : std::filesystem::directory_iterator(directory / snapshots_folder, ignored))
-    if (is_temporary(entry.path())) std::filesystem::remove(entry.path(), ignored);
+  const auto remove_temporary = [&](const std::filesystem::path& folder, std::string_view beginning) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (is_temporary(entry.path()) && entry.path().filename().string().starts_with(beginning))
+        std::filesystem::remove(entry.path(), ignored);
+  };
+  for (const char* name : result_files) remove_temporary(directory, name);
+  remove_temporary(directory, FolderLock::name);
+  remove_temporary(directory / snapshots_folder, "");
 }
 
 std::optional<std::filesystem::path> move_earlier_results(const std::filesystem::path& directory) {

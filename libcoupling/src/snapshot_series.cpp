@@ -76,7 +76,8 @@ void SnapshotSeries::drop_after(long step) {
   steps_.erase(later, steps_.end());
   if (!dropped.empty()) listed_ = 0;
   list();
-  for (const auto& [of_step, time] : dropped) std::filesystem::remove(directory_ / file_of(of_step));
+  // The last first, so that a kill leaves no gap.
+  for (auto it = dropped.rbegin(); it != dropped.rend(); ++it) std::filesystem::remove(directory_ / file_of(it->first));
 }
 
 void SnapshotSeries::list() {

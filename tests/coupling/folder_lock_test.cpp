@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <regex>
 #include <sstream>
 #include <vector>
@@ -156,6 +157,32 @@ TEST_F(FolderLockTest, OfAProcessThatWasKilledIsTakenOver) {
   EXPECT_EQ(refusal(), "");  // though its parent has not waited for it
   EXPECT_EQ(code_of(child), 128 + SIGKILL);
   EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+/// Also in the middle of taking over what another has left.
+TEST_F(FolderLockTest, KilledAtAnyMomentLeavesNothingInTheWay) {
+  const fs::path memory = "/dev/shm/vesiflow_lock_" + std::to_string(getpid());
+  const fs::path folder = fs::exists("/dev/shm") ? memory : folder_;  // where locks are made fast
+  leave_lock();
+  rewrite("process_start = 1");
+  fs::create_directories(folder);
+  fs::copy_file(lock(), folder / "stale");
+  std::minstd_rand chance(1);
+  for (int kills = 0; kills < 100; ++kills) {
+    const pid_t child = start([&] {
+      while (true) {
+        const FolderLock held(folder);
+        fs::copy_file(folder / "stale", folder / "next", fs::copy_options::overwrite_existing);
+        fs::rename(folder / "next", folder / "run.lock");
+      }
+      return 0;
+    });
+    usleep(500 + chance() % 3000);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    ASSERT_NO_THROW(FolderLock{folder}) << "after " << kills << " kills";
+  }
+  fs::remove_all(folder);
 }
 
 TEST_F(FolderLockTest, KnowsANumberThatIsUsedAgainAndAMachineThatWasStartedAnew) {

@@ -390,10 +390,12 @@ TEST_F(RunTest, RestartDropsSnapshotsFromTheListToo) {
 TEST_F(RunTest, LeftoversOfAKillAreRemoved) {
   fs::create_directories(at("run"));
   fs::create_directories(at("run") / "snapshots");
-  const fs::path list = at("run") / "vesicle.h5.part", snapshot = at("run") / "snapshots" / "fluid_000000007.h5.part";
-  for (const fs::path& part : {list, snapshot}) std::ofstream(part) << "half a file";
+  const fs::path list = at("run") / "vesicle.h5.part", snapshot = at("run") / "snapshots" / "fluid_000000007.h5.part",
+                 lock = at("run") / "run.lock.a1B2c3.part", of_the_user = at("run") / "film.mp4.part";
+  for (const fs::path& part : {list, snapshot, lock, of_the_user}) std::ofstream(part) << "half a file";
   run_scene(small_scene({"time.end=0.05"}), at("run"));
-  for (const fs::path& part : {list, snapshot}) EXPECT_FALSE(fs::exists(part));
+  for (const fs::path& part : {list, snapshot, lock}) EXPECT_FALSE(fs::exists(part)) << part;
+  EXPECT_TRUE(fs::exists(of_the_user));
 }
 
 TEST_F(RunTest, EarlierSnapshotsMoveWithTheirLists) {
