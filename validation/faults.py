@@ -80,7 +80,7 @@ def between(least, most, count):
 
 
 def full_disk(study, count):
-    needed = sum(file.stat().st_size for file in study.reference.iterdir())
+    needed = written.size(study.reference)
     for size in between(300_000, needed + 200_000, count):
         with mounted(study.work / "disk", f"size={size // 4096 * 4096}") as disk:
             if disk is None:
@@ -93,7 +93,7 @@ def full_disk(study, count):
 
 
 def limited_files(study, count):
-    largest = max(file.stat().st_size for file in study.reference.iterdir())
+    largest = max(file.stat().st_size for file in study.reference.rglob("*") if file.is_file())
     for number, size in enumerate(between(2_000, largest, count)):
         folder = study.work / f"limited_{number}"
         code, message = study.execute(study.start(folder), [(resource.RLIMIT_FSIZE, size)])

@@ -100,8 +100,9 @@ class Chain:
         self.kills += 1
         kind = "a restarted run" if restarted else "a run from its start"
         self.moments[f"{kind}, {'before its first row' if written.steps_of_table(self.folder) <= before else 'under way'}"] += 1
-        for part in sorted(self.folder.glob("*.part")):
-            self.moments[f"within the writing of {part.stem}"] += 1
+        for part in sorted(self.folder.rglob("*.part")):
+            name = "a snapshot" if part.parent.name == "snapshots" else part.stem
+            self.moments[f"within the writing of {name}"] += 1
         self.problems += [f"{self.variant}, kill {self.kills}: {p}" for p in written.problems(self.folder)]
 
 
@@ -143,7 +144,7 @@ def study(program, count, seed, report):
             growth.append(written.size(chain.folder) / written.size(folder))
             report(f"{kills} kills, {finished} runs finished, {len(problems)} problems")
     return {"kills": kills, "runs": finished, "restarts_from_checkpoints": restarts, "killed": dict(sorted(moments.items())),
-            "snapshots_larger_by_at_most": round(max(growth), 3), "problems": problems}
+            "files_larger_by_at_most": round(max(growth), 3), "problems": problems}
 
 
 def main():

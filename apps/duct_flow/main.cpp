@@ -4,12 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "output_files.h"
 #include "program.h"
 #include "report.h"
 #include "steady_options.h"
+#include "streams.h"
 
 namespace {
 
@@ -106,18 +106,17 @@ ExitCode run(int argc, char** argv) {
   for (int times = 0; times <= arguments.refinements; ++times) {
     const std::array<int, 3> cells = refined(arguments, times);
     const std::string name = fmt::format("{}x{}x{}", cells[0], cells[1], cells[2]);
-    if (!arguments.quiet) fmt::print(stderr, "{} cells\n", name);
+    if (!arguments.quiet) say("{} cells\n", name);
     flows.push_back(compute_duct(arguments.duct, cells, arguments.method, arguments.steady));
     const SteadyRun& last = flows.back().run;
-    if (!last.steady)
-      fmt::print(stderr, "{} cells: not steady at time {:g}: change {:.1e}\n", name, last.time, last.change);
+    if (!last.steady) say("{} cells: not steady at time {:g}: change {:.1e}\n", name, last.time, last.change);
     all_steady = all_steady && last.steady;
     json = to_json(arguments.duct, arguments.method, flows).dump(1) + "\n";
     if (folder.empty()) continue;
     write_text(folder / fmt::format("cross_section_{}.csv", name), cross_section(arguments.duct, flows.back()));
     write_text(folder / "duct_flow.json", json);
   }
-  fmt::print("{}", arguments.json ? json : table(arguments.duct, arguments.method, flows));
+  print_result(arguments.json ? json : table(arguments.duct, arguments.method, flows));
   return all_steady ? success : not_steady;
 }
 

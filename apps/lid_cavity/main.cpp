@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "output_files.h"
 #include "program.h"
 #include "report.h"
 #include "steady_options.h"
+#include "streams.h"
 
 using namespace cavity;
 
@@ -51,20 +51,19 @@ ExitCode run(int argc, char** argv) {
   std::string json;
   bool all_steady = true;
   for (const int cells : arguments.cells) {
-    if (!arguments.quiet) fmt::print(stderr, "{}^3 cells\n", cells);
+    if (!arguments.quiet) say("{}^3 cells\n", cells);
     flows.push_back(compute_cavity(cells, arguments.reynolds_number, arguments.steady,
                                    flows.empty() ? nullptr : &flows.back().velocity));
     const SteadyRun& last = flows.back().run;
     if (!last.steady)
-      fmt::print(stderr, "{}^3 cells: not steady at time {:g}: it changes by {:.1e} per unit time\n", cells, last.time,
-                 last.change);
+      say("{}^3 cells: not steady at time {:g}: it changes by {:.1e} per unit time\n", cells, last.time, last.change);
     all_steady = all_steady && last.steady;
     json = to_json(flows, arguments.reynolds_number).dump(1) + "\n";
     if (folder.empty()) continue;
     write_text(folder / fmt::format("mid_plane_{}.csv", cells), mid_plane(flows.back()));
     write_text(folder / "lid_cavity.json", json);
   }
-  fmt::print("{}", arguments.json ? json : table(flows, arguments.reynolds_number));
+  print_result(arguments.json ? json : table(flows, arguments.reynolds_number));
   return all_steady ? success : not_steady;
 }
 

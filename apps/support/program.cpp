@@ -1,14 +1,18 @@
 #include "program.h"
 
-#include <fmt/format.h>
+#include "streams.h"
 
-#include <cstdio>
+void print_result(const std::string& text) {
+  if (const std::string reason = put_out(text); !reason.empty())
+    throw FileError("standard output: the result cannot be written: " + reason);
+}
 
 int run_program(const std::function<ExitCode()>& body) {
   const auto fail = [](ExitCode code, const char* prefix, const std::exception& error) {
-    fmt::print(stderr, "{}{}\n", prefix, error.what());
+    say("{}{}\n", prefix, error.what());
     return code;
   };
+  keep_standard_streams();
   try {
     return body();
   } catch (const CommandLineError& error) {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 /// Exit codes of the programs that take a flow to its steady state.
 enum ExitCode { success = 0, internal_error = 1, bad_input = 2, not_steady = 3, file_error = 4 };
@@ -17,6 +18,9 @@ class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Writes what the program was asked for to standard output. Throws FileError; a reader who has had enough (`| head`) is none.
+void print_result(const std::string& text);
 
 /// Runs the body; what it throws becomes a line on standard error and an exit code.
 int run_program(const std::function<ExitCode()>& body);

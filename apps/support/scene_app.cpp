@@ -13,6 +13,7 @@
 #include "coupling/run.h"
 #include "memory_use.h"
 #include "passive_waiting.h"
+#include "streams.h"
 
 using namespace vesiflow::coupling;
 
@@ -61,6 +62,15 @@ std::filesystem::path directory_of(const Arguments& arguments) {
   return std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem();
 }
 
+// What of the command line is not in a checkpoint.
+std::vector<std::string> command_to_repeat(const char* program, const Arguments& arguments) {
+  std::vector<std::string> words{program};
+  if (arguments.threads != omp_get_num_procs())
+    words.insert(words.end(), {"--threads", std::to_string(arguments.threads)});
+  if (arguments.quiet) words.emplace_back("--quiet");
+  return words;
+}
+
 }  // namespace
 
 int run_scene_app(const SceneApp& app, int argc, char** argv) {
@@ -80,11 +90,12 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   require_flow(app, scene, name);
   omp_set_num_threads(arguments.threads);
   if (arguments.plan) {
-    fmt::print("{}", describe_plan(scene, arguments.threads));
+    if (const std::string reason = put_out(describe_plan(scene, arguments.threads)); !reason.empty())
+      throw FileError("standard output: the plan cannot be written: " + reason);
     return exit_code::success;
   }
 
-  if (const std::string warning = memory_warning(scene); !warning.empty()) fmt::print(stderr, "warning: {}\n", warning);
+  if (const std::string warning = memory_warning(scene); !warning.empty()) say("warning: {}\n", warning);
   Simulation simulation(scene);
   RunOptions options;
   options.program = app.name;
@@ -92,7 +103,8 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   options.directory = directory_of(arguments);
   if (!arguments.checkpoint.empty()) options.checkpoint = arguments.checkpoint;
   options.quiet = arguments.quiet;
+  options.command = command_to_repeat(argv[0], arguments);
   const RunStatus status = run(simulation, options);
-  if (!arguments.quiet) fmt::print("results in {}\n", options.directory.string());
+  if (!arguments.quiet) put_out(fmt::format("results in {}\n", options.directory.string()));
   return exit_code::of(status);
 }

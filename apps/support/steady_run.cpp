@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
+
+#include "streams.h"
 
 using namespace vesiflow::fluid;
 
@@ -42,13 +43,12 @@ class Progress {
       first_time_ = time;
       first_change_ = change;
     }
-    fmt::print(stderr, "\r  t = {:<9.4g} change {:.2e}, steady at {:.0e}; about {:.0f} s left   ", time, change,
-               options_.tolerance, left * seconds / (time - start_));
-    std::fflush(stderr);
+    say("\r  t = {:<9.4g} change {:.2e}, steady at {:.0e}; about {:.0f} s left   ", time, change, options_.tolerance,
+        left * seconds / (time - start_));
     shown_ = true;
   }
   ~Progress() {
-    if (shown_) fmt::print(stderr, "\n");
+    if (shown_) say("\n");
   }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -6,13 +6,14 @@
 
 #include <cerrno>
 #include <system_error>
-#include <vector>
 
 #include "coupling/errors.h"
 #include "descriptor.h"
 
 namespace vesiflow::coupling {
 namespace {
+
+constexpr const char* temporary_ending = ".part";
 
 std::string system_message() {
   return std::generic_category().message(errno);
@@ -29,8 +30,12 @@ void flush_to_disk(const std::filesystem::path& file) {
 
 std::filesystem::path temporary_of(const std::filesystem::path& target) {
   std::filesystem::path temporary = target;
-  temporary += ".part";
+  temporary += temporary_ending;
   return temporary;
+}
+
+bool is_temporary(const std::filesystem::path& file) {
+  return file.extension() == temporary_ending;
 }
 
 bool write_all(int descriptor, std::string_view text) {
@@ -40,21 +45,6 @@ bool write_all(int descriptor, std::string_view text) {
     if (written > 0) text.remove_prefix(static_cast<std::size_t>(written));
   }
   return true;
-}
-
-void copy_bytes(const std::filesystem::path& source, const std::filesystem::path& target) {
-  const auto fail = [](const std::filesystem::path& file, const char* what) {
-    throw FileError(fmt::format("{}: cannot be {}: {}", file.string(), what, system_message()));
-  };
-  const Descriptor from(open(source.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!from.valid()) fail(source, "read");
-  const Descriptor to(open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (!to.valid()) fail(target, "written");
-  std::vector<char> piece(1 << 20);
-  ssize_t size = 0;
-  while ((size = ::read(from, piece.data(), piece.size())) > 0)
-    if (!write_all(to, {piece.data(), static_cast<std::size_t>(size)})) fail(target, "written");
-  if (size < 0) fail(source, "read");
 }
 
 void write_atomically(const std::filesystem::path& target,

@@ -9,6 +9,7 @@ namespace vesiflow::coupling {
 
 /// Name under which a file is written before it is complete.
 std::filesystem::path temporary_of(const std::filesystem::path& target);
+bool is_temporary(const std::filesystem::path& file);
 
 /// Lets `write` fill a file of that name beside `target`, then renames it over `target`: whoever reads sees
 /// the old file or the new one, whole. The temporary file is removed when `write` throws.
@@ -18,10 +19,6 @@ void write_atomically(const std::filesystem::path& target,
 
 /// The same for text.
 void write_text_atomically(const std::filesystem::path& target, const std::string& text);
-
-/// Makes `target` a copy of `source`.
-/// \throws FileError with the system's reason (which std::filesystem::copy_file of libstdc++ 12 does not give)
-void copy_bytes(const std::filesystem::path& source, const std::filesystem::path& target);
 
 /// Writes the whole text, in more than one piece if the system takes less at once; false, with errno, if it cannot.
 bool write_all(int descriptor, std::string_view text);

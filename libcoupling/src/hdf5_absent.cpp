@@ -62,10 +62,7 @@ std::string Hdf5File::read_text(const std::string&, const std::string&) const {
 bool Hdf5File::exists(const std::string&) const {
   fail("no HDF5");
 }
-std::vector<std::string> Hdf5File::children(const std::string&) const {
-  fail("no HDF5");
-}
-void Hdf5File::remove(const std::string&) {
+void Hdf5File::link(const std::string&, const std::string&) {
   fail("no HDF5");
 }
 

@@ -43,19 +43,27 @@ void be_quiet() {
 // What the system said of the call that failed last, such as "No space left on device"; that of memory is not in HDF5's text.
 // Empty if it was not the system.
 std::string system_error() {
+  struct Cause {
+    int number = 0;
+    bool lock = false;
+  } cause;
   const auto find = [](unsigned, const H5E_error2_t* entry, void* found) -> herr_t {
     const std::string_view text = entry->desc != nullptr ? entry->desc : "";
     constexpr std::string_view label = "errno = ";
+    int& number = static_cast<Cause*>(found)->number;
     if (entry->maj_num == H5E_RESOURCE && text.find("memory allocation failed") != std::string_view::npos)
-      *static_cast<int*>(found) = ENOMEM;
+      number = ENOMEM;
     const std::size_t at = text.find(label);
     if (at == std::string_view::npos) return 0;
-    std::from_chars(text.data() + at + label.size(), text.data() + text.size(), *static_cast<int*>(found));
+    std::from_chars(text.data() + at + label.size(), text.data() + text.size(), number);
+    static_cast<Cause*>(found)->lock = text.find("lock file") != std::string_view::npos;
     return 1;
   };
-  int number = 0;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find, &number);
-  return number == 0 ? "" : std::generic_category().message(number);
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find, &cause);
+  if (cause.number == 0) return "";
+  return std::generic_category().message(cause.number) +
+         (cause.lock ? "; it cannot be locked, which is not needed: set HDF5_USE_FILE_LOCKING=FALSE in the environment"
+                     : "");
 }
 
 // Opening a file takes HDF5 some megabytes; where there are none, 1.10.8 crashes (H5AC_create).
@@ -66,10 +74,14 @@ void require_memory() {
   std::free(probe);
 }
 
-// The format of HDF5 1.10, whichever newer library writes it: its metadata have checksums.
+// The format of HDF5 1.10, whichever newer library writes it: its metadata have checksums. No locks: what is written is beside
+// the file that others read and takes its place when it is whole, and some file systems have none.
 Handle checksummed_access() {
   const hid_t list = H5Pcreate(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(list, H5F_LIBVER_V110, H5F_LIBVER_V110);
+#if H5_VERSION_GE(1, 10, 7) && !(H5_VERSION_GE(1, 12, 0) && H5_VERSION_LE(1, 12, 0))
+  H5Pset_file_locking(list, false, true);
+#endif
   return Handle(list, H5Pclose);
 }
 
@@ -133,20 +145,10 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
   be_quiet();
   require_memory();
   const std::string name = path.string();
-  const Handle access = checksummed_access();
-  switch (mode) {
-    case Mode::create: {
-      const Handle creation = timeless(H5P_FILE_CREATE);
-      file_ = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
-      break;
-    }
-    case Mode::append:
-      file_ = H5Fopen(name.c_str(), H5F_ACC_RDWR, access);
-      break;
-    case Mode::read:
-      file_ = H5Fopen(name.c_str(), H5F_ACC_RDONLY, access);
-      break;
-  }
+  const Handle access = checksummed_access(), creation = timeless(H5P_FILE_CREATE);
+  file_ = mode == Mode::create ? H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access)
+                               : H5Fopen(name.c_str(), H5F_ACC_RDONLY, access);
+  // Before anything is closed, which would forget the cause.
   if (file_ < 0) fail(mode == Mode::create ? "cannot be created" : "cannot be read: missing, truncated or not HDF5");
 }
 
@@ -270,20 +272,10 @@ bool Hdf5File::exists(const std::string& name) const {
   return found > 0;
 }
 
-std::vector<std::string> Hdf5File::children(const std::string& group) const {
-  std::vector<std::string> names;
-  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
-    return 0;
-  };
-  if (exists(group) &&
-      H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names, H5P_DEFAULT) < 0)
-    fail(group + " cannot be listed: the file is damaged");
-  return names;
-}
-
-void Hdf5File::remove(const std::string& name) {
-  if (H5Ldelete(file_, name.c_str(), H5P_DEFAULT) < 0) fail(name + " cannot be removed");
+void Hdf5File::link(const std::string& name, const std::string& other_file) {
+  if (!make_parents(file_, name) ||
+      H5Lcreate_external(other_file.c_str(), "/", file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    fail(name + " cannot be written");
 }
 
 }  // namespace vesiflow::coupling

@@ -13,7 +13,7 @@ namespace vesiflow::coupling {
 /// format of HDF5 1.10); reading what has changed since fails. A block of zeros with its checksum is all that passes.
 class Hdf5File {
  public:
-  enum class Mode { create, append, read };
+  enum class Mode { create, read };
   using Shape = std::vector<std::uint64_t>;
 
   Hdf5File(const std::filesystem::path& path, Mode mode);
@@ -29,6 +29,9 @@ class Hdf5File {
   void attribute(const std::string& group, const std::string& name, const std::vector<double>& values);
   void attribute(const std::string& group, const std::string& name, const std::string& value);
 
+  /// Makes `name` stand for the root of another file, whose path is taken from the folder of this one.
+  void link(const std::string& name, const std::string& other_file);
+
   /// Ends the writing: only now is a full disk sure to have been noticed.
   void close();
 
@@ -41,8 +44,6 @@ class Hdf5File {
 
   /// Whether its group, which must exist, has the object.
   bool exists(const std::string& name) const;
-  std::vector<std::string> children(const std::string& group) const;
-  void remove(const std::string& name);
 
  private:
   [[noreturn]] void fail(const std::string& what) const;

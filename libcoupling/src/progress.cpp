@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "standard_streams.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -71,16 +72,15 @@ void Progress::show(Simulation& simulation, Clock::time_point now) {
                                        duration(per_time * std::max(0.0, end - simulation.time())), drift(simulation));
   if (terminal_) {
     const double fraction = std::min(1.0, simulation.time() / end);
-    fmt::print(stderr, "\r{} {:3.0f} % {}\033[K", bar(fraction), 100.0 * fraction, text);
+    say(fmt::format("\r{} {:3.0f} % {}\033[K", bar(fraction), 100.0 * fraction, text));
     bar_shown_ = true;
   } else {
-    fmt::print(stderr, "{}\n", text);
+    say(text + "\n");
   }
-  std::fflush(stderr);
 }
 
 void Progress::finish() {
-  if (bar_shown_) fmt::print(stderr, "\n");
+  if (bar_shown_) say("\n");
   bar_shown_ = false;
 }
 

@@ -16,13 +16,15 @@
 #include "atomic_file.h"
 #include "coupling/errors.h"
 #include "descriptor.h"
+#include "folder_lock.h"
+#include "snapshot_series.h"
 #include "vesicle_record.h"
 
 namespace vesiflow::coupling {
 namespace {
 
 constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5", "vesicle.xdmf", "fluid.h5",
-                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures"};
+                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures",     snapshots_folder};
 
 long step_of(const std::string& row, const std::filesystem::path& file) {
   long step = 0;
@@ -75,20 +77,16 @@ std::string row_of(const vesicle::Diagnostics& diagnostics) {
 
 }  // namespace
 
-void prepare_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  const std::filesystem::path probe = directory / ".vesiflow_probe";
-  if (!error) {
-    const Descriptor descriptor(open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644));
-    if (!descriptor.valid()) error = {errno, std::generic_category()};
-  }
+void remove_leftovers(const std::filesystem::path& directory) {
   std::error_code ignored;
-  std::filesystem::remove(probe, ignored);
-  for (const char* name : result_files) std::filesystem::remove(temporary_of(directory / name), ignored);
-  if (error)
-    throw FileError(fmt::format("{}: results cannot be written there: {}; choose another folder with --out",
-                                directory.string(), error.message()));
+  const auto remove_temporary = [&](const std::filesystem::path& folder, std::string_view beginning) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+      if (is_temporary(entry.path()) && entry.path().filename().string().starts_with(beginning))
+        std::filesystem::remove(entry.path(), ignored);
+  };
+  for (const char* name : result_files) remove_temporary(directory, name);
+  remove_temporary(directory, FolderLock::name);
+  remove_temporary(directory / snapshots_folder, "");
 }
 
 std::optional<std::filesystem::path> move_earlier_results(const std::filesystem::path& directory) {

@@ -34,10 +34,8 @@ struct RunRecord {
   fluid::PhaseAccount output_table, output_vesicle, output_fluid, output_checkpoint;
 };
 
-/// Makes the directory and finds out whether files can be written there, before anything is computed. Removes what a
-/// kill within a write has left of a file.
-/// \throws FileError
-void prepare_directory(const std::filesystem::path& directory);
+/// Removes what a kill within a write has left of a file.
+void remove_leftovers(const std::filesystem::path& directory);
 
 /// Moves the results of an earlier run to previous_N/. Returns where, or nothing if there were none.
 std::optional<std::filesystem::path> move_earlier_results(const std::filesystem::path& directory);

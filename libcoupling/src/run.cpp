@@ -8,17 +8,20 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <new>
 
 #include "atomic_file.h"
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
+#include "folder_lock.h"
 #include "hdf5_file.h"
 #include "phase_timer.h"
 #include "progress.h"
 #include "results.h"
+#include "run_status.h"
+#include "shell_words.h"
 #include "snapshot_files.h"
+#include "standard_streams.h"
 #include "stop_request.h"
 
 namespace vesiflow::coupling {
@@ -63,6 +66,7 @@ class Run {
 
  private:
   std::filesystem::path checkpoint_file() const { return directory_ / "checkpoint.h5"; }
+  std::filesystem::path named_checkpoint() const { return options_.directory / "checkpoint.h5"; }  // as the user has it
   bool continues_own_directory() const {
     std::error_code error;
     return options_.checkpoint && std::filesystem::equivalent(*options_.checkpoint, checkpoint_file(), error);
@@ -82,13 +86,16 @@ class Run {
   [[noreturn]] void stop(const SimulationStopped& reason);
   bool may_go_back() const;
   void report_quality();
+  bool can_go_on() const;
+  std::string command_to_go_on() const;
+  void say_how_to_go_on(RunStatus end) const;
 
   Simulation& simulation_;
   const RunOptions& options_;
+  std::optional<FolderLock> lock_;
   std::filesystem::path directory_;
   std::optional<DiagnosticsTable> table_;
-  std::optional<VesicleSnapshots> vesicle_snapshots_;
-  std::optional<FluidSnapshots> fluid_snapshots_;
+  std::optional<SnapshotSeries> vesicle_snapshots_, fluid_snapshots_;
   std::optional<std::filesystem::path> last_checkpoint_;
   long checkpointed_step_ = -1;
   RunQuality::Errors errors_at_checkpoint_;
@@ -98,20 +105,6 @@ class Run {
   std::optional<Progress> progress_;
   RunRecord record_;
 };
-
-const char* name_of(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::terminated:
-      return "terminated";
-    case RunStatus::out_of_time:
-      return "out of time";
-  }
-  return "completed";
-}
 
 // A build without HDF5 refuses a scene that asks for its files, before anything is touched.
 void require_hdf5(const Scene::Output& output) {
@@ -136,7 +129,10 @@ void Run::start() {
     spdlog::info("continuing from {} at step {}, t = {:.6g}", options_.checkpoint->string(), simulation_.steps(),
                  simulation_.time());
   }
-  prepare_directory(directory_);
+  lock_.emplace(options_.directory);
+  directory_ = lock_->folder();
+  if (const auto& owner = lock_->taken_from()) spdlog::info("taken over from a run that is gone ({})", *owner);
+  remove_leftovers(directory_);
   const bool own = continues_own_directory();
   if (own) checkpointed_step_ = simulation_.steps();
   if (!own) {
@@ -146,8 +142,8 @@ void Run::start() {
     }
   }
   table_.emplace(directory_);
-  vesicle_snapshots_.emplace(directory_);
-  fluid_snapshots_.emplace(directory_);
+  vesicle_snapshots_.emplace(directory_, vesicle_snapshots(simulation_));
+  fluid_snapshots_.emplace(directory_, fluid_snapshots(simulation_));
   if (own) rewind_files();
   write_text_atomically(directory_ / "scene.toml", to_toml(simulation_.scene()));
   write_summary(directory_, options_, simulation_, record_);
@@ -156,8 +152,8 @@ void Run::start() {
 // A run that went on after its last checkpoint has left rows and snapshots that will be computed again.
 void Run::rewind_files() {
   table_->rewind(simulation_.steps());
-  vesicle_snapshots_->rewind(simulation_);
-  fluid_snapshots_->rewind(simulation_);
+  vesicle_snapshots_->drop_after(simulation_.steps());
+  fluid_snapshots_->drop_after(simulation_.steps());
 }
 
 void Run::log_redistributions() {
@@ -174,8 +170,10 @@ void Run::log_redistributions() {
 
 void Run::checkpoint() {
   table_->flush_to_disk();
+  vesicle_snapshots_->list();
+  fluid_snapshots_->list();
   write_checkpoint(checkpoint_file(), simulation_);
-  last_checkpoint_ = checkpoint_file();
+  last_checkpoint_ = named_checkpoint();
   checkpointed_step_ = simulation_.steps();
   errors_at_checkpoint_ = record_.quality.errors();
   write_summary(directory_, options_, simulation_, record_);
@@ -190,6 +188,9 @@ void Run::record(bool last) {
   const auto wanted = [&](double every) {
     return every > 0.0 && (last || step == 0 || due(every, time, dt, adaptive));
   };
+  if (wanted(output.diagnostics_every) || wanted(output.vesicle_every) || wanted(output.fluid_every) ||
+      wanted(output.checkpoint_every))
+    lock_->require_held();
   if (wanted(output.diagnostics_every) && table_->last_step() < step) {
     const OutputTimer timer(record_.output_table, simulation_);
     const std::vector<vesicle::Diagnostics> all = simulation_.measure();
@@ -200,11 +201,11 @@ void Run::record(bool last) {
   }
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) {
     const PhaseTimer timer(record_.output_vesicle);
-    vesicle_snapshots_->write(simulation_);
+    vesicle_snapshots_->write(step, time);
   }
   if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) {
     const PhaseTimer timer(record_.output_fluid);
-    fluid_snapshots_->write(simulation_);
+    fluid_snapshots_->write(step, time);
   }
   // At the start there is nothing to lose yet, but a state to go back to.
   const bool at_start = step == 0 && !last && simulation_.scene().limits.on_blowup == OnBlowUp::stop;
@@ -242,6 +243,9 @@ void Run::warn_of_resolution() {
 }
 
 void Run::finish(const std::string& status) {
+  lock_->require_held();
+  vesicle_snapshots_->list();
+  fluid_snapshots_->list();
   record_.status = status;
   write_summary(directory_, options_, simulation_, record_);
 }
@@ -287,8 +291,7 @@ void Run::go_back(const SimulationStopped& reason) {
 }
 
 std::optional<RunStatus> Run::wants_to_end() const {
-  if (const int signal = StopRequest::signal(); signal != 0)
-    return signal == SIGTERM ? RunStatus::terminated : RunStatus::interrupted;
+  if (const auto status = status_of_signal(StopRequest::signal())) return status;
   const double limit = simulation_.scene().limits.wall_time;
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   if (limit > 0.0 && spent.count() >= limit) return RunStatus::out_of_time;
@@ -300,13 +303,30 @@ void Run::report_quality() {
   for (const std::string& warning : record_.quality.warnings()) spdlog::warn("{}", warning);
 }
 
+bool Run::can_go_on() const {
+  return last_checkpoint_ && std::filesystem::exists(*last_checkpoint_);
+}
+
+std::string Run::command_to_go_on() const {
+  std::vector<std::string> words = options_.command;
+  words.insert(words.end(), {"--restart", last_checkpoint_->string(), "--out", options_.directory.string()});
+  return shell_line(words);
+}
+
+void Run::say_how_to_go_on(RunStatus end) const {
+  spdlog::warn("{} at step {}, t = {:.6g} of {:g}\n  {}", end_of(end).cause, simulation_.steps(), simulation_.time(),
+               simulation_.scene().time.end,
+               can_go_on() ? "go on with: " + command_to_go_on()
+                           : "there is nothing to go on from: output.checkpoint_every = 0 writes no checkpoints");
+}
+
 // The reason goes into the summary if that can be written, which on a full disk it cannot.
 void Run::fail(const FileError& error) {
   if (!table_) throw error;  // nothing has been computed yet
-  const std::string message =
-      last_checkpoint_ ? fmt::format("{}\n  last good checkpoint: {}; when the cause is gone, go on with --restart {}",
-                                     error.what(), last_checkpoint_->string(), last_checkpoint_->string())
-                       : fmt::format("{}\n  last good checkpoint: none yet", error.what());
+  const std::string message = can_go_on()
+                                  ? fmt::format("{}\n  last good checkpoint: {}; when the cause is gone, go on with {}",
+                                                error.what(), last_checkpoint_->string(), command_to_go_on())
+                                  : fmt::format("{}\n  last good checkpoint: none yet", error.what());
   record_.stop_reason = message;
   try {
     finish("stopped");
@@ -316,8 +336,8 @@ void Run::fail(const FileError& error) {
 }
 
 RunStatus Run::execute() {
-  start();
   const StopRequest guard;
+  start();
   progress_.emplace(options_.quiet, simulation_);
   try {
     const PhaseTimer timer(record_.wall);
@@ -338,8 +358,9 @@ RunStatus Run::execute() {
   progress_->finish();
   if (!end) end = RunStatus::completed;
   if (*end != RunStatus::completed) record(true);
-  finish(name_of(*end));
+  finish(end_of(*end).name);
   report_quality();
+  if (*end != RunStatus::completed) say_how_to_go_on(*end);
   return *end;
 }
 
@@ -355,23 +376,15 @@ RunStatus run(Simulation& simulation, const RunOptions& options) {
 }
 
 int exit_code::of(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return success;
-    case RunStatus::interrupted:
-      return interrupted;
-    case RunStatus::terminated:
-      return terminated;
-    case RunStatus::out_of_time:
-      return out_of_time;
-  }
-  return internal_error;
+  return end_of(status).exit_code;
 }
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
+  keep_standard_streams();
   spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));
   spdlog::set_pattern("%^%l%$: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
+  std::signal(SIGPIPE, SIG_IGN);  // so does writing what nobody reads any more
   spare_hdf5_at_exit();
   try {
     return program(argc, argv);

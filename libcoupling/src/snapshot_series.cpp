@@ -3,62 +3,99 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <optional>
+#include <string_view>
 
 #include "atomic_file.h"
 #include "coupling/errors.h"
 
 namespace vesiflow::coupling {
-
-std::string step_group(long step) {
-  return fmt::format("/steps/{:09d}", step);
-}
-
 namespace {
 
-long step_of(const std::string& group, const std::filesystem::path& path) {
+constexpr std::int64_t format_version = 2;  // 1 had the snapshots themselves in NAME.h5
+
+// A list is written anew when it lacks more than this share of the snapshots: then its cost per snapshot does not grow either.
+constexpr std::size_t share_not_listed = 50;
+
+// The step in a name such as fluid_000000192.h5.
+std::optional<long> step_of(std::string_view name, std::string_view kind) {
+  constexpr std::string_view ending = ".h5";
+  if (!name.starts_with(kind) || !name.ends_with(ending)) return std::nullopt;
+  name.remove_suffix(ending.size());
+  name.remove_prefix(kind.size());
+  if (!name.starts_with('_')) return std::nullopt;
+  name.remove_prefix(1);
   long step = 0;
-  const char* end = group.data() + group.size();
-  if (std::from_chars(group.data(), end, step).ptr != end)
-    throw FileError(fmt::format("{}: /steps/{} is no step", path.string(), group));
-  return step;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), step);
+  return error == std::errc() && end == name.data() + name.size() ? std::optional(step) : std::nullopt;
+}
+
+void refuse_earlier_format(const std::filesystem::path& list) {
+  if (!std::filesystem::exists(list)) return;
+  const Hdf5File file(list, Hdf5File::Mode::read);
+  if (const std::int64_t format = file.read_integer("/", "format"); format != format_version)
+    throw FileError(
+        fmt::format("{}: format {}, this version goes on with format {} only; restart into another folder with --out",
+                    list.string(), format, format_version));
 }
 
 }  // namespace
 
-std::map<long, double> stored_steps(const std::filesystem::path& path) {
-  std::map<long, double> steps;
-  if (!std::filesystem::exists(path)) return steps;
-  const Hdf5File file(path, Hdf5File::Mode::read);
-  for (const std::string& name : file.children("/steps"))
-    steps[step_of(name, path)] = file.read_number("/steps/" + name, "time");
-  return steps;
+SnapshotSeries::SnapshotSeries(std::filesystem::path directory, Kind kind)
+    : directory_(std::move(directory)), kind_(std::move(kind)) {
+  refuse_earlier_format(directory_ / (kind_.name + ".h5"));
+  const std::filesystem::path folder = directory_ / snapshots_folder;
+  if (!std::filesystem::exists(folder)) return;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const auto step = step_of(entry.path().filename().string(), kind_.name))
+      steps_[*step] = Hdf5File(entry.path(), Hdf5File::Mode::read).read_number("/", "time");
 }
 
-void append_snapshot(const std::filesystem::path& path, long step, double time,
-                     const std::function<void(Hdf5File&)>& begin,
-                     const std::function<void(Hdf5File&, const std::string&)>& add) {
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    const bool extend = std::filesystem::exists(path);
-    if (extend) copy_bytes(path, temporary);
-    Hdf5File file(temporary, extend ? Hdf5File::Mode::append : Hdf5File::Mode::create);
-    if (!extend) begin(file);
-    const std::string group = step_group(step);
-    file.attribute(group, "step", static_cast<std::int64_t>(step));
-    file.attribute(group, "time", time);
-    add(file, group);
-    file.close();
-  });
+std::string SnapshotSeries::file_of(long step) const {
+  return fmt::format("{}/{}_{:09d}.h5", snapshots_folder, kind_.name, step);
 }
 
-void drop_after(const std::filesystem::path& path, long step) {
-  const std::map<long, double> steps = stored_steps(path);
-  if (steps.empty() || steps.rbegin()->first <= step) return;
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    copy_bytes(path, temporary);
-    Hdf5File file(temporary, Hdf5File::Mode::append);
-    for (auto it = steps.upper_bound(step); it != steps.end(); ++it) file.remove(step_group(it->first));
+void SnapshotSeries::write(long step, double time) {
+  std::error_code told_by_writing;
+  std::filesystem::create_directory(directory_ / snapshots_folder, told_by_writing);
+  write_atomically(directory_ / file_of(step), [&](const std::filesystem::path& temporary) {
+    Hdf5File file(temporary, Hdf5File::Mode::create);
+    file.attribute("/", "format", format_version);
+    file.attribute("/", "step", static_cast<std::int64_t>(step));
+    file.attribute("/", "time", time);
+    kind_.fill(file);
     file.close();
   });
+  steps_[step] = time;
+  if (steps_.size() > listed_ + listed_ / share_not_listed) list();
+}
+
+void SnapshotSeries::drop_after(long step) {
+  const auto later = steps_.upper_bound(step);
+  const std::map<long, double> dropped(later, steps_.end());
+  steps_.erase(later, steps_.end());
+  if (!dropped.empty()) listed_ = 0;
+  list();
+  // The last first, so that a kill leaves no gap.
+  for (auto it = dropped.rbegin(); it != dropped.rend(); ++it) std::filesystem::remove(directory_ / file_of(it->first));
+}
+
+void SnapshotSeries::list() {
+  if (listed_ == steps_.size()) return;
+  write_atomically(directory_ / (kind_.name + ".h5"), [&](const std::filesystem::path& temporary) {
+    Hdf5File file(temporary, Hdf5File::Mode::create);
+    file.attribute("/", "format", format_version);
+    kind_.head(file);
+    for (const auto& [step, time] : steps_) file.link(fmt::format("/steps/{:09d}", step), file_of(step));
+    file.close();
+  });
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+      "  <Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+      kind_.name);
+  for (const auto& [step, time] : steps_) text += kind_.xdmf(file_of(step), step, time);
+  write_text_atomically(directory_ / (kind_.name + ".xdmf"), text + "  </Grid>\n</Domain>\n</Xdmf>\n");
+  listed_ = steps_.size();
 }
 
 }  // namespace vesiflow::coupling

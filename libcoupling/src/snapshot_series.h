@@ -9,19 +9,44 @@
 
 namespace vesiflow::coupling {
 
-/// Name of the group of a step: /steps/000000192.
-std::string step_group(long step);
+/// Snapshots of one kind, a file each: snapshots/NAME_000000192.h5, written once and never touched again, so that one costs the
+/// same however many there are. Two lists are made of them: NAME.h5, in which /steps/000000192 is a link to that file, and
+/// NAME.xdmf for ParaView. A list never names a snapshot that is not there.
+class SnapshotSeries {
+ public:
+  struct Kind {
+    std::string name;
+    /// What the list NAME.h5 has beside /steps.
+    std::function<void(Hdf5File& list)> head;
+    /// The data of a snapshot, of the present state.
+    std::function<void(Hdf5File& snapshot)> fill;
+    /// The <Grid> of a snapshot; `file` is its name as the list has it.
+    std::function<std::string(const std::string& file, long step, double time)> xdmf;
+  };
 
-/// Step -> time of the snapshots in a file; empty when there is no file.
-std::map<long, double> stored_steps(const std::filesystem::path& file);
+  /// Goes on with the snapshots that are in the directory.
+  /// \throws FileError when NAME.h5 is of an earlier version, which kept the snapshots in it, or a snapshot cannot be read
+  SnapshotSeries(std::filesystem::path directory, Kind kind);
 
-/// Adds a group to a series by copying the file, extending the copy and renaming it over the original, so that a
-/// kill at any moment leaves a complete file. `begin` fills a new file, `add` the group of the step.
-void append_snapshot(const std::filesystem::path& file, long step, double time,
-                     const std::function<void(Hdf5File&)>& begin,
-                     const std::function<void(Hdf5File&, const std::string& group)>& add);
+  /// -1 if there is none.
+  long last_step() const { return steps_.empty() ? -1 : steps_.rbegin()->first; }
+  /// The lists follow now or, of many snapshots, a little later.
+  void write(long step, double time);
+  /// Removes the snapshots after `step` and brings the lists up to date.
+  void drop_after(long step);
+  /// Brings the lists up to date.
+  void list();
 
-/// Removes the snapshots after `step`.
-void drop_after(const std::filesystem::path& file, long step);
+ private:
+  std::string file_of(long step) const;
+
+  std::filesystem::path directory_;
+  Kind kind_;
+  std::map<long, double> steps_;  // step -> time
+  std::size_t listed_ = 0;
+};
+
+/// The folder of the snapshots.
+inline constexpr const char* snapshots_folder = "snapshots";
 
 }  // namespace vesiflow::coupling

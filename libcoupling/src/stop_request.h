@@ -2,7 +2,10 @@
 
 namespace vesiflow::coupling {
 
-/// While it lives, Ctrl-C and SIGTERM are requests to stop after the step under way. A second one kills as usual.
+/// While one lives, Ctrl-C (SIGINT), SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are requests to stop after the step under way; the same
+/// one again, two seconds later, kills as usual. SIGHUP, SIGUSR1 and SIGUSR2 that the process ignores (nohup) stay ignored. SIGPIPE is
+/// ignored: that nobody reads the progress any more is no reason to end. Several may live at once, in threads; with the last
+/// of them all signals are what they were.
 class StopRequest {
  public:
   StopRequest();
@@ -10,12 +13,8 @@ class StopRequest {
   StopRequest(const StopRequest&) = delete;
   StopRequest& operator=(const StopRequest&) = delete;
 
-  /// The signal that has come, SIGINT or SIGTERM; 0 if none has.
+  /// The signal that has come; 0 if none has.
   static int signal();
-
- private:
-  void (*old_interrupt_)(int);
-  void (*old_terminate_)(int);
 };
 
 }  // namespace vesiflow::coupling

@@ -1,13 +1,9 @@
 #include <fmt/format.h>
 
-#include "atomic_file.h"
 #include "snapshot_files.h"
-#include "snapshot_series.h"
 
 namespace vesiflow::coupling {
 namespace {
-
-constexpr std::int64_t format_version = 1;
 
 std::uint64_t points_of(int latitudes) {
   return 2ULL * latitudes * latitudes + 2;
@@ -96,8 +92,8 @@ void add_vesicle(Hdf5File& file, const std::string& group, const vesicle::Membra
   file.attribute(group, "longitudes", static_cast<std::int64_t>(surface.grid().longitudes()));
 }
 
-std::string xdmf_grid(std::size_t vesicle, long step, int latitudes) {
-  const std::string base = fmt::format("vesicle.h5:{}/vesicle_{}", step_group(step), vesicle);
+std::string xdmf_grid(const std::string& file, std::size_t vesicle, int latitudes) {
+  const std::string base = fmt::format("{}:/vesicle_{}", file, vesicle);
   const std::uint64_t points = points_of(latitudes);
   std::string text = fmt::format(
       "      <Grid Name=\"vesicle_{}\">\n"
@@ -119,52 +115,34 @@ std::string xdmf_grid(std::size_t vesicle, long step, int latitudes) {
   return text + "      </Grid>\n";
 }
 
-std::string xdmf(const std::map<long, double>& steps, const Scene& scene) {
+std::string xdmf_grids(const std::string& file, long step, double time, const Scene& scene) {
   std::string text =
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
-      "  <Grid Name=\"vesicles\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const auto& [step, time] : steps) {
-    text += fmt::format("    <Grid Name=\"step_{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", step);
-    text += fmt::format("      <Time Value=\"{}\"/>\n", time);
-    for (std::size_t v = 0; v < scene.vesicles.size(); ++v) text += xdmf_grid(v, step, scene.latitudes(v));
-    text += "    </Grid>\n";
-  }
-  return text + "  </Grid>\n</Domain>\n</Xdmf>\n";
+      fmt::format("    <Grid Name=\"step_{}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n", step);
+  text += fmt::format("      <Time Value=\"{}\"/>\n", time);
+  for (std::size_t v = 0; v < scene.vesicles.size(); ++v) text += xdmf_grid(file, v, scene.latitudes(v));
+  return text + "    </Grid>\n";
+}
+
+void write_topology(Hdf5File& list, const Scene& scene) {
+  list.attribute("/", "vesicles", static_cast<std::int64_t>(scene.vesicles.size()));
+  for (std::size_t v = 0; v < scene.vesicles.size(); ++v)
+    list.write(fmt::format("/topology/vesicle_{}", v), triangles(scene.latitudes(v)).data(),
+               {triangles_of(scene.latitudes(v)), 3});
 }
 
 }  // namespace
 
-VesicleSnapshots::VesicleSnapshots(std::filesystem::path directory)
-    : directory_(std::move(directory)), steps_(stored_steps(directory_ / "vesicle.h5")) {}
-
-// The list first: it never names a snapshot that is not there.
-void VesicleSnapshots::rewind(const Simulation& simulation) {
-  const auto later = steps_.upper_bound(simulation.steps());
-  if (later == steps_.end()) return;
-  steps_.erase(later, steps_.end());
-  write_text_atomically(directory_ / "vesicle.xdmf", xdmf(steps_, simulation.scene()));
-  drop_after(directory_ / "vesicle.h5", simulation.steps());
-}
-
-void VesicleSnapshots::write(Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  const std::size_t vesicles = simulation.vesicle_count();
-  append_snapshot(
-      directory_ / "vesicle.h5", simulation.steps(), simulation.time(),
-      [&](Hdf5File& file) {
-        file.attribute("/", "format", format_version);
-        file.attribute("/", "vesicles", static_cast<std::int64_t>(vesicles));
-        for (std::size_t v = 0; v < vesicles; ++v)
-          file.write(fmt::format("/topology/vesicle_{}", v), triangles(scene.latitudes(v)).data(),
-                     {triangles_of(scene.latitudes(v)), 3});
-      },
-      [&](Hdf5File& file, const std::string& group) {
-        for (std::size_t v = 0; v < vesicles; ++v)
-          add_vesicle(file, fmt::format("{}/vesicle_{}", group, v), simulation.membrane(v),
-                      simulation.marker_velocity(v));
-      });
-  steps_[simulation.steps()] = simulation.time();
-  write_text_atomically(directory_ / "vesicle.xdmf", xdmf(steps_, scene));
+SnapshotSeries::Kind vesicle_snapshots(Simulation& simulation) {
+  return {.name = "vesicle",
+          .head = [&simulation](Hdf5File& list) { write_topology(list, simulation.scene()); },
+          .fill =
+              [&simulation](Hdf5File& snapshot) {
+                for (std::size_t v = 0; v < simulation.vesicle_count(); ++v)
+                  add_vesicle(snapshot, fmt::format("/vesicle_{}", v), simulation.membrane(v),
+                              simulation.marker_velocity(v));
+              },
+          .xdmf = [&simulation](const std::string& file, long step,
+                                double time) { return xdmf_grids(file, step, time, simulation.scene()); }};
 }
 
 }  // namespace vesiflow::coupling

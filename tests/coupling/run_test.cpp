@@ -6,13 +6,18 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/plan.h"
+#include "folder_lock.h"
 #include "small_scene.h"
 
 namespace vesiflow::coupling {
@@ -384,9 +389,113 @@ TEST_F(RunTest, RestartDropsSnapshotsFromTheListToo) {
 
 TEST_F(RunTest, LeftoversOfAKillAreRemoved) {
   fs::create_directories(at("run"));
-  std::ofstream(at("run") / "vesicle.h5.part") << "half a file";
+  fs::create_directories(at("run") / "snapshots");
+  const fs::path list = at("run") / "vesicle.h5.part", snapshot = at("run") / "snapshots" / "fluid_000000007.h5.part",
+                 lock = at("run") / "run.lock.a1B2c3.part", of_the_user = at("run") / "film.mp4.part";
+  for (const fs::path& part : {list, snapshot, lock, of_the_user}) std::ofstream(part) << "half a file";
   run_scene(small_scene({"time.end=0.05"}), at("run"));
-  EXPECT_FALSE(fs::exists(at("run") / "vesicle.h5.part"));
+  for (const fs::path& part : {list, snapshot, lock}) EXPECT_FALSE(fs::exists(part)) << part;
+  EXPECT_TRUE(fs::exists(of_the_user));
+}
+
+TEST_F(RunTest, EarlierSnapshotsMoveWithTheirLists) {
+  run_scene(small_scene({"time.end=0.05"}), at("run"));
+  run_scene(small_scene({"time.end=0.05", "output.fluid_every=0"}), at("run"));
+  EXPECT_TRUE(fs::exists(at("run") / "previous_1" / "snapshots" / "fluid_000000000.h5"));
+  EXPECT_TRUE(fs::exists(at("run") / "snapshots" / "vesicle_000000000.h5"));
+  EXPECT_FALSE(fs::exists(at("run") / "snapshots" / "fluid_000000000.h5"));
+}
+
+/// Numbers and sizes of the files that the plan speaks of are those that a run writes.
+TEST_F(RunTest, PlanSaysHowManySnapshotsThereWillBeAndOfWhatSize) {
+  const Scene scene = small_scene({"time.end=0.25", "output.vesicle_every=1/24", "output.fluid_every=0.1"});
+  run_scene(scene, at("run"));
+  const std::string plan = describe_plan(scene, 1);
+  for (const auto& [name, label] :
+       {std::pair{"vesicle", "snapshots of membranes"}, {"fluid", "snapshots of the fluid"}}) {
+    double files = 0.0, bytes = 0.0;
+    for (const auto& entry : fs::directory_iterator(at("run") / "snapshots"))
+      if (entry.path().filename().string().starts_with(name)) {
+        ++files;
+        bytes += static_cast<double>(entry.file_size());
+      }
+    std::smatch said;
+    ASSERT_TRUE(std::regex_search(
+        plan, said, std::regex(std::string(label) + " +every .*: (.*) files of (.*) MB, in all about (.*) MB")));
+    EXPECT_EQ(std::stod(said[1]), files) << name;
+    EXPECT_NEAR(std::stod(said[2]) / (1e-6 * bytes / files), 1.0, 0.03) << name;
+    EXPECT_NEAR(std::stod(said[3]) / (1e-6 * bytes), 1.0, 0.03) << name;
+  }
+}
+
+// Every file, by its name, as it is.
+std::map<fs::path, std::string> contents_of(const fs::path& folder) {
+  std::map<fs::path, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream stream(entry.path(), std::ios::binary);
+    contents[entry.path()] = std::string(std::istreambuf_iterator<char>(stream), {});
+  }
+  return contents;
+}
+
+TEST_F(RunTest, ASecondRunInTheSameFolderIsRefusedAndTouchesNothing) {
+  run_scene(small_scene({"time.end=0.05"}), at("run"));
+  std::ofstream(at("run") / "fluid.h5.part") << "what the first run is writing";
+  const FolderLock of_the_first_run(at("run"));
+  const auto before = contents_of(at("run"));
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.05"}), at("run")), FileError);
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("run"), at("run") / "checkpoint.h5"), FileError);
+  EXPECT_EQ(contents_of(at("run")), before);
+}
+
+// Calls `harm` in the first step of a run and returns what the run says.
+std::string error_of_run(const fs::path& folder, const std::function<void()>& harm) {
+  const Scene scene = small_scene({"time.end=0.1", "output.diagnostics_every=1/96"});
+  Simulation simulation(scene);
+  RunOptions options;
+  options.directory = folder;
+  options.quiet = true;
+  std::thread other([&] {
+    while (!fs::exists(folder / "diagnostics.csv")) std::this_thread::yield();
+    harm();
+  });
+  std::string error;
+  try {
+    run(simulation, options);
+  } catch (const FileError& failure) {
+    error = failure.what();
+  }
+  other.join();
+  return error;
+}
+
+TEST_F(RunTest, StopsWhereAnotherRunHasTakenItsFolder) {
+  const std::string error = error_of_run(at("run"), [&] {
+    std::string lock = text_of(at("run") / "run.lock");
+    lock.insert(lock.find("since = ") + 8, "later than ");
+    std::ofstream(at("run") / "lock") << lock;
+    fs::rename(at("run") / "lock", at("run") / "run.lock");
+  });
+  EXPECT_NE(error.find("in use by another run"), std::string::npos) << error;
+  EXPECT_TRUE(fs::exists(at("run") / "run.lock"));
+  EXPECT_NE(text_of(at("run") / "summary.json").find("\"status\": \"running\""), std::string::npos);
+}
+
+TEST_F(RunTest, StopsWhereItsFolderIsRemoved) {
+  const std::string error = error_of_run(at("run"), [&] { fs::rename(at("run"), at("elsewhere")); });
+  EXPECT_NE(error.find("No such file or directory"), std::string::npos) << error;
+  EXPECT_FALSE(fs::exists(at("run")));
+}
+
+TEST_F(RunTest, WritesWhereItBeganThoughTheProcessMoves) {
+  fs::create_directories(folder_);
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  std::string error = error_of_run("run", [&] { fs::current_path("/"); });
+  fs::current_path(before);
+  EXPECT_EQ(error, "");
+  EXPECT_TRUE(fs::exists(at("run") / "checkpoint.h5"));
 }
 
 TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {

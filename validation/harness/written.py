@@ -34,13 +34,15 @@ def differences(a, b):
         first, second = (json.loads((folder / "summary.json").read_text())[key] for folder in (a, b))
         if first != second:
             found.append(f"summary.json: {key} is {second}, was {first}")
-    found += [f"{file.name} is left" for file in b.glob("*.part")]
+    if _names(a / "snapshots") != _names(b / "snapshots"):
+        found.append("snapshots: not the same files")
+    found += [f"{file.name} is left" for file in [*b.rglob("*.part"), *b.glob("run.lock*")]]
     return found
 
 
 def size(folder):
-    """Bytes of the snapshots."""
-    return sum((folder / f"{name}.h5").stat().st_size for name in SNAPSHOTS)
+    """Bytes of all files."""
+    return sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
 
 
 def steps_of_table(folder):
@@ -80,20 +82,32 @@ def _table(folder):
 def _snapshots(folder):
     found = []
     for name in SNAPSHOTS:
-        steps = _steps(folder, name)
+        steps = sorted(int(file.stem.split("_")[1]) for file in (folder / "snapshots").glob(f"{name}_*.h5"))
         if steps != list(range(len(steps))):
-            found.append(f"{name}.h5: steps are missing: {steps}")
-        if not steps:
+            found.append(f"snapshots: {name}: steps are missing: {steps}")
+        listed = _steps(folder, name)
+        if listed != list(range(len(listed))) or not set(listed) <= set(steps):
+            found.append(f"{name}.h5 lists {listed}, there are {steps}")
+        if not (folder / f"{name}.h5").exists():
             continue
         contents = _contents(folder / f"{name}.h5")
-        sets = [{key.split("/", 3)[3] for key in contents if key.startswith(f"/steps/{step:09d}/")} for step in steps]
+        sets = [{key.split("/", 3)[3] for key in contents if key.startswith(f"/steps/{step:09d}/")} for step in listed]
         if any(of_step != sets[0] for of_step in sets):
             found.append(f"{name}.h5: a snapshot is not complete")
         if (folder / f"{name}.xdmf").exists():
-            named = [item.text.strip().split(":")[1] for item in ElementTree.parse(folder / f"{name}.xdmf").iter("DataItem")
-                     if item.get("Format") == "HDF"]
-            found += [f"{name}.xdmf names {key}, which is not there" for key in named if key not in contents]
+            named = {item.text.strip() for item in ElementTree.parse(folder / f"{name}.xdmf").iter("DataItem")
+                     if item.get("Format") == "HDF"}
+            found += [f"{name}.xdmf names {item}, which is not there" for item in named if not _is_there(folder, item)]
     return found
+
+
+def _is_there(folder, item):
+    """item: FILE:/DATA/SET"""
+    name, data_set = item.split(":")
+    if not (folder / name).exists():
+        return False
+    with h5py.File(folder / name, "r") as file:
+        return data_set in file
 
 
 def _texts(folder):
@@ -112,16 +126,22 @@ def _steps(folder, name):
 
 
 def _contents(file):
-    """Every attribute and data set as bytes, by path."""
+    """Every attribute and data set as bytes, by path, also in the files that a list of snapshots links to."""
     result = {}
 
     def add(name, thing):
         for key, value in thing.attrs.items():
-            result[f"/{name}@{key}"] = np.asarray(value).tobytes()
+            result[f"{name}@{key}"] = np.asarray(value).tobytes()
         if isinstance(thing, h5py.Dataset):
-            result[f"/{name}"] = str(thing.dtype) + str(thing.shape), thing[()].tobytes()
+            result[name] = str(thing.dtype) + str(thing.shape), thing[()].tobytes()
+        else:
+            for child in thing:
+                add(f"{name}/{child}", thing[child])
 
     with h5py.File(file, "r") as opened:
         add("", opened)
-        opened.visititems(add)
     return result
+
+
+def _names(folder):
+    return sorted(file.name for file in folder.iterdir()) if folder.exists() else []
