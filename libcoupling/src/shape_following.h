@@ -73,6 +73,8 @@ class ShapeFollowing : public MembraneMotion {
   void relax_mesh(double dt, const vesicle::Surface& surface);
   double greatest_compression(const vesicle::Surface& surface) const;
   void find_rates(const vesicle::Surface& surface);
+  double normal_force(double wavenumber) const;
+  double fastest_rate(int n, double compression) const;
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
   void solve_implicit_terms(double dt);
