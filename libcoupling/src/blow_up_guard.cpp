@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "coupling/flow.h"
 
@@ -78,10 +79,31 @@ bool BlowUpGuard::suspects() const {
   return std::ranges::any_of(too_noisy_, [](int steps) { return steps > 0; });
 }
 
+double stable_bending_step(const Scene& scene) {
+  double stiffest = scene.membrane.capillary_number;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, scene.capillary_number(i));
+  return 0.5 * stiffest;
+}
+
+double quiet_tension_number(const Scene& scene) {
+  constexpr double least_reynolds_number = 0.5;
+  const double re = scene.fluid.reynolds_number;
+  if (scene.time.markers != "shape_following" || scene.fluid.inertia == fluid::Inertia::none ||
+      re < least_reynolds_number)
+    return std::numeric_limits<double>::infinity();
+  return re <= 1.0 ? 110.0 : 80.0;
+}
+
 std::string blow_up_advice(const Scene& scene) {
   if (const double convection = stable_convection_step(scene); !scene.time.adaptive && scene.time.step > convection)
     return fmt::format("the explicit convection is unstable for time.step above about {:.3g} near the walls: reduce it",
                        convection);
+  if (const double longest = stable_bending_step(scene); scene.time.step > longest)
+    return fmt::format(
+        "bending is too fast for the step: a shape far from rest relaxes at a rate of 1/Ca, so take time.step <= "
+        "{:.3g} "
+        "{}; or check membrane.capillary_number",
+        longest, scene.time.adaptive ? "and a time.smallest_step well below it" : "or time.adaptive = true");
   const std::string mesh = "the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too deflated";
   const double limit = scene.stable_tension_number();
   if (std::isfinite(limit))
@@ -89,15 +111,11 @@ std::string blow_up_advice(const Scene& scene) {
         "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: "
         "reduce time.step or membrane.sigma0; if g is well below that, {}",
         limit, scene.tension_number(), mesh);
-  // docs/time_integration.md, shape_following: with inertia it has a limit, which falls with the Reynolds number.
-  constexpr double limit_with_inertia = 80.0, least_reynolds_number = 0.5;
-  const bool has_limit = scene.time.markers == "shape_following" && scene.fluid.inertia != fluid::Inertia::none &&
-                         scene.fluid.reynolds_number >= least_reynolds_number;
-  if (has_limit && scene.tension_number() > limit_with_inertia)
+  if (const double quiet = quiet_tension_number(scene); scene.tension_number() > quiet)
     return fmt::format(
         "at this Reynolds number g = dt sigma0/(4 h) is quiet to about {:g}, and this scene has g = {:.3g}: reduce "
-        "time.step or membrane.sigma0; or {}",
-        limit_with_inertia, scene.tension_number(), mesh);
+        "time.step or membrane.sigma0, or take time.markers = \"implicit\"; or {}",
+        quiet, scene.tension_number(), mesh);
   return fmt::format("reduce time.step; or {}", mesh);
 }
 

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "accuracy.h"
+#include "available_memory.h"
+#include "blow_up_guard.h"
 #include "cost_model.h"
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
@@ -56,6 +58,11 @@ std::string describe_time(const Scene& scene) {
 
 std::string describe_stability(const Scene& scene) {
   const double limit = scene.stable_tension_number();
+  if (const double quiet = quiet_tension_number(scene); std::isfinite(quiet))
+    return fmt::format("quiet to about {:g} at this Reynolds number{}", quiet,
+                       scene.tension_number() > quiet ? "  <- WARNING: beyond it: take a smaller membrane.sigma0 or "
+                                                        "time.step, or time.markers = \"implicit\""
+                                                      : "");
   if (!std::isfinite(limit)) return "no limit to it with these markers";
   return fmt::format("stable below about {:.3g}{}", limit,
                      scene.tension_number() > limit ? "  <- WARNING: beyond it" : "");
@@ -127,6 +134,52 @@ std::string describe_spacing(const Scene& scene) {
                                      : fmt::format("{:.4g}", scene.spacing());
 }
 
+// Of the vesicles whose markers are farthest apart and closest together, at the equator of a sphere. Limits: docs/stability.md, Recommended region.
+std::string describe_marker_spacing(const Scene& scene) {
+  constexpr double widest = 1.25, closest = 0.3;
+  const double h = scene.spacing();
+  double most = 0.0, least = std::numeric_limits<double>::infinity(), radius = 0.0;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    const double apart = M_PI * scene.vesicles[i].radius / scene.latitudes(i) / h;
+    if (apart > most) std::tie(most, radius) = std::pair{apart, scene.vesicles[i].radius};
+    least = std::min(least, apart);
+  }
+  constexpr double round_off = 1e-9;
+  const std::string text = most > (1.0 + round_off) * least ? fmt::format("about {:.2f} to {:.2f} h", least, most)
+                                                            : fmt::format("about {:.2f} h", most);
+  std::string warning;
+  if (most > widest)
+    warning = fmt::format(
+        "  <- WARNING: markers more than h apart let the fluid through between them, and runs stop: take "
+        "mesh.latitudes >= {:.0f}",
+        std::ceil(M_PI * radius / h / 8.0) * 8.0);
+  else if (least < closest)
+    warning =
+        "  <- WARNING: markers so close bring nothing that the fluid's grid resolves: fewer mesh.latitudes or more "
+        "domain.cells";
+  return text + " at the equator of a sphere" + warning;
+}
+
+// Rates of the flow times the step: docs/stability.md, Recommended region.
+std::string describe_step_length(const Scene& scene) {
+  constexpr double longest = 1.0 / 12.0;
+  if (!scene.follows_shape() || scene.flow.type == FlowType::custom) return "";
+  const Flow flow = flow_of(scene);
+  const double rate = std::max(flow.greatest_gradient, flow.angular_frequency);
+  const double step = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
+  constexpr double round_off = 1e-9;
+  if (rate * step <= longest * (1.0 + round_off)) return "";
+  return fmt::format("  <- WARNING: the flow turns by more than 1/12 in a step: take {} <= {:.3g}",
+                     scene.time.adaptive ? "time.largest_step" : "time.step", longest / rate);
+}
+
+std::string describe_memory_limit(const Scene& scene) {
+  const AvailableMemory available = available_memory();
+  if (plan_memory(scene).total() <= available.bytes) return "";
+  return fmt::format("  <- WARNING: {} has {:.0f} MB: fewer domain.cells or mesh.latitudes take less", available.of,
+                     1e-6 * available.bytes);
+}
+
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -140,16 +193,15 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("grid", "{} x {} x {} cells, spacing {}", c[0], c[1], c[2], describe_spacing(scene));
   if (scene.domain.mirror != std::array<bool, 3>{})
     plan.line("planes of symmetry", "{}: the box is one side of them", mirrored_axes(scene));
-  plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
-            scene.vesicles.size(), coarsest, 2 * coarsest,
-            finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
+  plan.line("membranes", "{} of {} x {} markers{}, spacing {}", scene.vesicles.size(), coarsest, 2 * coarsest,
+            finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", describe_marker_spacing(scene));
   describe_cells_across(plan, scene);
   std::vector<vesicle::VectorField> markers;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
     markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
   describe_deflation(plan, scene, markers);
   describe_distances(plan, scene, markers);
-  plan.line("time", "{}", describe_time(scene));
+  plan.line("time", "{}{}", describe_time(scene), describe_step_length(scene));
   constexpr double far = 10.0;
   const double longest = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
   if (const double limit = stable_convection_step(scene); limit < far * longest)
@@ -159,9 +211,9 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
                                         : "");
   plan.line("tension number g", "{:.3g} = dt sigma0/(4 h){}; {}", scene.tension_number(),
             has_unequal_spacings(scene) ? " of the finest h" : "", describe_stability(scene));
-  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f})",
+  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f}){}",
             1e-6 * memory.total(), 1e-6 * memory.fluid, 1e-6 * memory.membranes, 1e-6 * memory.steps,
-            1e-6 * memory.output);
+            1e-6 * memory.output, describe_memory_limit(scene));
   plan.line("threads", "{}", threads);
 }
 
@@ -194,14 +246,12 @@ std::string describe_bending(const Scene& scene) {
                   grids[static_cast<std::size_t>(scene.membrane.upsampling)]);
   if (scene.membrane.spontaneous_curvature != 0.0)
     text += fmt::format(", spontaneous curvature {:g}", scene.membrane.spontaneous_curvature);
-  // Speeds of about 1/Ca where a shape is far from rest; docs/stability.md, reduced volume and capillary number.
-  double stiffest = scene.membrane.capillary_number;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, scene.capillary_number(i));
-  if (scene.time.step > 0.5 * stiffest && !scene.time.adaptive)
-    text += fmt::format(
-        "  <- WARNING: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g} or time.adaptive = "
-        "true",
-        0.5 * stiffest);
+  if (const double longest = stable_bending_step(scene); scene.time.step > longest && !scene.time.adaptive) {
+    const double smallest = scene.time.smallest_step;
+    text +=
+        fmt::format("  <- WARNING: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g}{}",
+                    longest, longest > smallest ? " or time.adaptive = true" : "; is membrane.capillary_number meant?");
+  }
   return text;
 }
 
@@ -219,7 +269,13 @@ void describe_fluid(Plan& plan, const Scene& scene) {
   const bool steps_in_time = scene.fluid.inertia != fluid::Inertia::none;
   plan.part(scene.fluid.inertia == fluid::Inertia::full, "convection", "skew-symmetric, extrapolated",
             "fluid.inertia is not \"full\"");
-  plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler", "fluid.inertia = \"none\"");
+  constexpr double largest_reynolds_number = 10.0;
+  plan.part(steps_in_time, "acceleration",
+            fmt::format("BDF2, first step backward Euler{}",
+                        scene.fluid.reynolds_number > largest_reynolds_number
+                            ? "  <- WARNING: fluid.reynolds_number above 10 has been compared with nothing"
+                            : ""),
+            "fluid.inertia = \"none\"");
   plan.part(steps_in_time, "viscosity", "implicit: " + viscosity.solve, "fluid.inertia = \"none\"");
   plan.part(viscosity.is_variable, "indicator", viscosity.indicator, "the viscosity ratio of every vesicle is 1");
   plan.part(viscosity.is_variable, "variable viscosity", viscosity.treatment,
