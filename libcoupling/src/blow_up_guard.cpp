@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "coupling/flow.h"
+#include "recommended_region.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -79,31 +79,16 @@ bool BlowUpGuard::suspects() const {
   return std::ranges::any_of(too_noisy_, [](int steps) { return steps > 0; });
 }
 
-double stable_bending_step(const Scene& scene) {
-  double stiffest = scene.membrane.capillary_number;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, scene.capillary_number(i));
-  return 0.5 * stiffest;
-}
-
-double quiet_tension_number(const Scene& scene) {
-  constexpr double least_reynolds_number = 0.5;
-  const double re = scene.fluid.reynolds_number;
-  if (scene.time.markers != "shape_following" || scene.fluid.inertia == fluid::Inertia::none ||
-      re < least_reynolds_number)
-    return std::numeric_limits<double>::infinity();
-  return re <= 1.0 ? 110.0 : 80.0;
-}
-
 std::string blow_up_advice(const Scene& scene) {
   if (const double convection = stable_convection_step(scene); !scene.time.adaptive && scene.time.step > convection)
     return fmt::format("the explicit convection is unstable for time.step above about {:.3g} near the walls: reduce it",
                        convection);
   if (const double longest = stable_bending_step(scene); scene.time.step > longest)
     return fmt::format(
-        "bending is too fast for the step: a shape far from rest relaxes at a rate of 1/Ca, so take time.step <= "
-        "{:.3g} "
-        "{}; or check membrane.capillary_number",
-        longest, scene.time.adaptive ? "and a time.smallest_step well below it" : "or time.adaptive = true");
+        "bending is too fast for the step: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g}{}",
+        longest,
+        longest > scene.time.smallest_step && !scene.time.adaptive ? " or time.adaptive = true"
+                                                                   : "; is membrane.capillary_number meant?");
   const std::string mesh = "the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too deflated";
   const double limit = scene.stable_tension_number();
   if (std::isfinite(limit))

@@ -37,14 +37,6 @@ class BlowUpGuard {
   std::vector<int> too_noisy_;  // steps on end, for each membrane
 };
 
-/// The longest step that follows bending: a shape far from rest relaxes at a rate of about 1/Ca (docs/stability.md, reduced volume and capillary
-/// number). Of the stiffest vesicle.
-double stable_bending_step(const Scene& scene);
-
-/// The largest g = dt sigma0/(4 h) at which shape following is quiet where inertia counts (docs/time_integration.md, shape_following); infinite
-/// elsewhere.
-double quiet_tension_number(const Scene& scene);
-
 /// What to do about a run of this scene that has blown up: its most likely cause by what is known of limits.
 std::string blow_up_advice(const Scene& scene);
 

@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "accuracy.h"
-#include "available_memory.h"
-#include "blow_up_guard.h"
 #include "cost_model.h"
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
@@ -19,6 +17,7 @@
 #include "fluid/elliptic_solver.h"
 #include "initial_shape.h"
 #include "memory_plan.h"
+#include "recommended_region.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
@@ -134,52 +133,6 @@ std::string describe_spacing(const Scene& scene) {
                                      : fmt::format("{:.4g}", scene.spacing());
 }
 
-// Of the vesicles whose markers are farthest apart and closest together, at the equator of a sphere. Limits: docs/stability.md, Recommended region.
-std::string describe_marker_spacing(const Scene& scene) {
-  constexpr double widest = 1.25, closest = 0.3;
-  const double h = scene.spacing();
-  double most = 0.0, least = std::numeric_limits<double>::infinity(), radius = 0.0;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
-    const double apart = M_PI * scene.vesicles[i].radius / scene.latitudes(i) / h;
-    if (apart > most) std::tie(most, radius) = std::pair{apart, scene.vesicles[i].radius};
-    least = std::min(least, apart);
-  }
-  constexpr double round_off = 1e-9;
-  const std::string text = most > (1.0 + round_off) * least ? fmt::format("about {:.2f} to {:.2f} h", least, most)
-                                                            : fmt::format("about {:.2f} h", most);
-  std::string warning;
-  if (most > widest)
-    warning = fmt::format(
-        "  <- WARNING: markers more than h apart let the fluid through between them, and runs stop: take "
-        "mesh.latitudes >= {:.0f}",
-        std::ceil(M_PI * radius / h / 8.0) * 8.0);
-  else if (least < closest)
-    warning =
-        "  <- WARNING: markers so close bring nothing that the fluid's grid resolves: fewer mesh.latitudes or more "
-        "domain.cells";
-  return text + " at the equator of a sphere" + warning;
-}
-
-// Rates of the flow times the step: docs/stability.md, Recommended region.
-std::string describe_step_length(const Scene& scene) {
-  constexpr double longest = 1.0 / 12.0;
-  if (!scene.follows_shape() || scene.flow.type == FlowType::custom) return "";
-  const Flow flow = flow_of(scene);
-  const double rate = std::max(flow.greatest_gradient, flow.angular_frequency);
-  const double step = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
-  constexpr double round_off = 1e-9;
-  if (rate * step <= longest * (1.0 + round_off)) return "";
-  return fmt::format("  <- WARNING: the flow turns by more than 1/12 in a step: take {} <= {:.3g}",
-                     scene.time.adaptive ? "time.largest_step" : "time.step", longest / rate);
-}
-
-std::string describe_memory_limit(const Scene& scene) {
-  const AvailableMemory available = available_memory();
-  if (plan_memory(scene).total() <= available.bytes) return "";
-  return fmt::format("  <- WARNING: {} has {:.0f} MB: fewer domain.cells or mesh.latitudes take less", available.of,
-                     1e-6 * available.bytes);
-}
-
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
   const double h = scene.spacing();
@@ -201,7 +154,7 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
     markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
   describe_deflation(plan, scene, markers);
   describe_distances(plan, scene, markers);
-  plan.line("time", "{}{}", describe_time(scene), describe_step_length(scene));
+  plan.line("time", "{}{}", describe_time(scene), step_warning(scene));
   constexpr double far = 10.0;
   const double longest = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
   if (const double limit = stable_convection_step(scene); limit < far * longest)
@@ -213,7 +166,7 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
             has_unequal_spacings(scene) ? " of the finest h" : "", describe_stability(scene));
   plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f}){}",
             1e-6 * memory.total(), 1e-6 * memory.fluid, 1e-6 * memory.membranes, 1e-6 * memory.steps,
-            1e-6 * memory.output, describe_memory_limit(scene));
+            1e-6 * memory.output, memory_limit_warning(scene));
   plan.line("threads", "{}", threads);
 }
 
@@ -246,13 +199,7 @@ std::string describe_bending(const Scene& scene) {
                   grids[static_cast<std::size_t>(scene.membrane.upsampling)]);
   if (scene.membrane.spontaneous_curvature != 0.0)
     text += fmt::format(", spontaneous curvature {:g}", scene.membrane.spontaneous_curvature);
-  if (const double longest = stable_bending_step(scene); scene.time.step > longest && !scene.time.adaptive) {
-    const double smallest = scene.time.smallest_step;
-    text +=
-        fmt::format("  <- WARNING: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g}{}",
-                    longest, longest > smallest ? " or time.adaptive = true" : "; is membrane.capillary_number meant?");
-  }
-  return text;
+  return text + bending_warning(scene);
 }
 
 // The solver of a problem, and why if it was left to choose.
@@ -269,12 +216,7 @@ void describe_fluid(Plan& plan, const Scene& scene) {
   const bool steps_in_time = scene.fluid.inertia != fluid::Inertia::none;
   plan.part(scene.fluid.inertia == fluid::Inertia::full, "convection", "skew-symmetric, extrapolated",
             "fluid.inertia is not \"full\"");
-  constexpr double largest_reynolds_number = 10.0;
-  plan.part(steps_in_time, "acceleration",
-            fmt::format("BDF2, first step backward Euler{}",
-                        scene.fluid.reynolds_number > largest_reynolds_number
-                            ? "  <- WARNING: fluid.reynolds_number above 10 has been compared with nothing"
-                            : ""),
+  plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler" + inertia_warning(scene),
             "fluid.inertia = \"none\"");
   plan.part(steps_in_time, "viscosity", "implicit: " + viscosity.solve, "fluid.inertia = \"none\"");
   plan.part(viscosity.is_variable, "indicator", viscosity.indicator, "the viscosity ratio of every vesicle is 1");
