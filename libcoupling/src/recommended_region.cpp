@@ -11,7 +11,7 @@
 
 #include "available_memory.h"
 #include "coupling/flow.h"
-#include "coupling/plan.h"
+#include "memory_plan.h"
 
 namespace vesiflow::coupling {
 
