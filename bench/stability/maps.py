@@ -53,6 +53,7 @@ class Map:
     source: str
     limits: Callable = lambda panel: []
     quick_panels: tuple | None = None
+    scene: str = SCENE
 
     def cells(self, quick):
         for panel in (self.quick_panels or self.panels) if quick else self.panels:
@@ -61,9 +62,10 @@ class Map:
                     yield panel, x, y
 
     def run(self, panel, x, y, quick):
-        keys = SMALL | {"time.end": self.end} | self.keys(panel, x, y)
+        base = SMALL if self.scene == SCENE else {}
+        keys = base | {"time.end": self.end} | self.keys(panel, x, y)
         keys = {key: value for key, value in keys.items() if value is not None}
-        return Run(f"{panel}, {self.x.label} {x}, {self.y.label} {y}", SCENE, keys | {"output.diagnostics_every": _every(keys["time.step"])}, store=STORE)
+        return Run(f"{panel}, {self.x.label} {x}, {self.y.label} {y}", self.scene, keys | {"output.diagnostics_every": _every(keys["time.step"])}, store=STORE)
 
 
 def number(value):
@@ -217,4 +219,27 @@ FORMULA_MAP = Map(
     lambda how, volume, formula, convection: formula in ADVISED and not (how.startswith("shape") and formula in ("volume penalty", "preset paper")), "docs/scene.md, membrane and mesh",
     quick_panels=("euler, 24 latitudes", "shape_following, 32 latitudes"))
 
-ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP)}
+# Every start that the documents recommend, on grids up to h = R/21, with as few latitudes as they recommend: pi/N about h.
+# The ellipsoids of these reduced volumes have axes 1, s, s^2.
+MIDDLE_AXIS = {0.7: 2.0144, 0.8: 1.7234, 0.85: 1.5853, 0.9: 1.445, 0.95: 1.2905, 0.99: 1.1188}
+START_CAPILLARY_NUMBERS = (2.5, 0.5, 10.0)
+
+
+def _start_keys(panel, volume, cells_per_radius):
+    shape, _, ca = panel.partition(", Ca = ")
+    half_width = 4 if volume < 0.75 else 3  # a long one needs room
+    cells = 2 * round(half_width * cells_per_radius)
+    keys = box(half_width, cells) | {"mesh.latitudes": 8 * round(math.pi * cells_per_radius / 8), "membrane.capillary_number": float(ca), "membrane.sigma0": 600,
+                                     "time.step": "1/24", "vesicles.0.shape": shape}
+    if shape != "ellipsoid":
+        return keys | {"vesicles.0.reduced_volume": volume}
+    middle = MIDDLE_AXIS[volume]
+    return keys | {"vesicles.0.axes": [1, middle, round(middle**2, 4)]}
+
+
+STARTS = Map(
+    "starts", "starts across the flow, reduced volume and grid", tuple(f"{shape}, Ca = {ca:g}" for ca in START_CAPILLARY_NUMBERS for shape in ("prolate", "oblate", "ellipsoid")),
+    Axis("reduced volume", tuple(MIDDLE_AXIS), (0.85,)), Axis("R/h", (5.33, 8, 10.67, 16, 21.33), (5.33, 8)), 1, _start_keys, lambda panel, volume, cells: None,
+    lambda panel, volume, cells, convection: volume >= 0.9 or not panel.endswith("= 10"), "docs/stability.md, Recommended region", quick_panels=("oblate, Ca = 2.5",), scene="bench/stability/start.toml")
+
+ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS)}

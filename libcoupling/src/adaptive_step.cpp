@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
 #include "immersed_vesicle.h"
@@ -40,31 +41,31 @@ void Simulation::take_adaptive_step() {
 
 bool Simulation::try_step(double dt, std::string& failure) {
   try {
-    take_step(dt);
     StepErrors errors;
-    for (std::size_t i = 0; i < vesicles_.size(); ++i) {
-      ImmersedVesicle& v = *vesicles_[i];
-      const PhaseTimer timer(phases_.membrane);
-      const double area = v.area, volume = v.volume;  // of the geometry before the step
-      v.update();
-      check_limits(i);
-      const vesicle::Membrane& m = v.membrane;
-      errors.area_change = std::max(errors.area_change, std::abs(m.surface().area() - area) / m.initial_area());
-      errors.volume_change =
-          std::max(errors.volume_change, std::abs(m.surface().volume() - volume) / m.initial_volume());
-      if (const auto error = v.motion->position_error())
-        errors.position = std::max(errors.position.value_or(0.0), *error / effective_radius(m.initial_volume()));
-    }
+    or_stop(scene_, [&] {
+      take_step(dt);
+      for (std::size_t i = 0; i < vesicles_.size(); ++i) weigh_step(i, errors);
+    });
     if (step_control_->accepts(dt, errors)) return true;
     failure = step_control_->reason();
-  } catch (const std::domain_error& error) {
-    step_control_->fail(dt);
-    failure = error.what();
   } catch (const SimulationStopped& stopped) {
     step_control_->fail(dt);
     failure = stopped.what();
   }
   return false;
+}
+
+void Simulation::weigh_step(std::size_t i, StepErrors& errors) {
+  ImmersedVesicle& v = *vesicles_[i];
+  const PhaseTimer timer(phases_.membrane);
+  const double area = v.area, volume = v.volume;  // of the geometry before the step
+  v.update();
+  check_limits(i);
+  const vesicle::Membrane& m = v.membrane;
+  errors.area_change = std::max(errors.area_change, std::abs(m.surface().area() - area) / m.initial_area());
+  errors.volume_change = std::max(errors.volume_change, std::abs(m.surface().volume() - volume) / m.initial_volume());
+  if (const auto error = v.motion->position_error())
+    errors.position = std::max(errors.position.value_or(0.0), *error / effective_radius(m.initial_volume()));
 }
 
 void Simulation::remember() {

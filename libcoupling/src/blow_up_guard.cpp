@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "coupling/flow.h"
+#include "recommended_region.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -82,6 +83,12 @@ std::string blow_up_advice(const Scene& scene) {
   if (const double convection = stable_convection_step(scene); !scene.time.adaptive && scene.time.step > convection)
     return fmt::format("the explicit convection is unstable for time.step above about {:.3g} near the walls: reduce it",
                        convection);
+  if (const double longest = stable_bending_step(scene); scene.time.step > longest)
+    return fmt::format(
+        "bending is too fast for the step: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g}{}",
+        longest,
+        longest > scene.time.smallest_step && !scene.time.adaptive ? " or time.adaptive = true"
+                                                                   : "; is membrane.capillary_number meant?");
   const std::string mesh = "the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too deflated";
   const double limit = scene.stable_tension_number();
   if (std::isfinite(limit))
@@ -89,15 +96,11 @@ std::string blow_up_advice(const Scene& scene) {
         "the explicit tension is unstable above g = dt sigma0/(4 mu h) of {:.3g}, and this scene has g = {:.3g}: "
         "reduce time.step or membrane.sigma0; if g is well below that, {}",
         limit, scene.tension_number(), mesh);
-  // docs/time_integration.md, shape_following: with inertia it has a limit, which falls with the Reynolds number.
-  constexpr double limit_with_inertia = 80.0, least_reynolds_number = 0.5;
-  const bool has_limit = scene.time.markers == "shape_following" && scene.fluid.inertia != fluid::Inertia::none &&
-                         scene.fluid.reynolds_number >= least_reynolds_number;
-  if (has_limit && scene.tension_number() > limit_with_inertia)
+  if (const double quiet = quiet_tension_number(scene); scene.tension_number() > quiet)
     return fmt::format(
         "at this Reynolds number g = dt sigma0/(4 h) is quiet to about {:g}, and this scene has g = {:.3g}: reduce "
-        "time.step or membrane.sigma0; or {}",
-        limit_with_inertia, scene.tension_number(), mesh);
+        "time.step or membrane.sigma0, or take time.markers = \"implicit\"; or {}",
+        quiet, scene.tension_number(), mesh);
   return fmt::format("reduce time.step; or {}", mesh);
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "coupling/errors.h"
 #include "coupling/scene.h"
 #include "fluid/field.h"
 #include "velocity_noise.h"
@@ -37,5 +39,19 @@ class BlowUpGuard {
 
 /// What to do about a run of this scene that has blown up: its most likely cause by what is known of limits.
 std::string blow_up_advice(const Scene& scene);
+
+/// Does what the state of a run is asked for. To the libraries a state that diverges is an argument out of range: in the course of a run it is no
+/// one's mistake, but the end of the run.
+/// \throws SimulationStopped for std::domain_error and std::invalid_argument
+template <class Action>
+auto or_stop(const Scene& scene, const Action& action) {
+  try {
+    return action();
+  } catch (const std::domain_error& error) {
+    throw SimulationStopped(error.what(), blow_up_advice(scene));
+  } catch (const std::invalid_argument& error) {
+    throw SimulationStopped(error.what(), blow_up_advice(scene));
+  }
+}
 
 }  // namespace vesiflow::coupling

@@ -33,6 +33,7 @@ class MembraneResponse {
   void update(double a, double mu);
 
   const Mode& operator[](int degree) const { return modes_[static_cast<std::size_t>(degree)]; }
+  int degrees() const { return static_cast<int>(modes_.size()); }
   double wavenumber(int degree) const { return (degree + 0.5) / radius_; }
 
  private:

@@ -17,6 +17,7 @@
 #include "fluid/elliptic_solver.h"
 #include "initial_shape.h"
 #include "memory_plan.h"
+#include "recommended_region.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
@@ -56,6 +57,11 @@ std::string describe_time(const Scene& scene) {
 
 std::string describe_stability(const Scene& scene) {
   const double limit = scene.stable_tension_number();
+  if (const double quiet = quiet_tension_number(scene); std::isfinite(quiet))
+    return fmt::format("quiet to about {:g} at this Reynolds number{}", quiet,
+                       scene.tension_number() > quiet ? "  <- WARNING: beyond it: take a smaller membrane.sigma0 or "
+                                                        "time.step, or time.markers = \"implicit\""
+                                                      : "");
   if (!std::isfinite(limit)) return "no limit to it with these markers";
   return fmt::format("stable below about {:.3g}{}", limit,
                      scene.tension_number() > limit ? "  <- WARNING: beyond it" : "");
@@ -140,16 +146,15 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("grid", "{} x {} x {} cells, spacing {}", c[0], c[1], c[2], describe_spacing(scene));
   if (scene.domain.mirror != std::array<bool, 3>{})
     plan.line("planes of symmetry", "{}: the box is one side of them", mirrored_axes(scene));
-  plan.line("membranes", "{} of {} x {} markers{}, spacing about {:.2f} h at the equator of a sphere",
-            scene.vesicles.size(), coarsest, 2 * coarsest,
-            finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", M_PI / coarsest / h);
+  plan.line("membranes", "{} of {} x {} markers{}, spacing {}", scene.vesicles.size(), coarsest, 2 * coarsest,
+            finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", describe_marker_spacing(scene));
   describe_cells_across(plan, scene);
   std::vector<vesicle::VectorField> markers;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
     markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));
   describe_deflation(plan, scene, markers);
   describe_distances(plan, scene, markers);
-  plan.line("time", "{}", describe_time(scene));
+  plan.line("time", "{}{}", describe_time(scene), step_warning(scene));
   constexpr double far = 10.0;
   const double longest = scene.time.adaptive ? scene.time.largest_step : scene.time.step;
   if (const double limit = stable_convection_step(scene); limit < far * longest)
@@ -159,9 +164,9 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
                                         : "");
   plan.line("tension number g", "{:.3g} = dt sigma0/(4 h){}; {}", scene.tension_number(),
             has_unequal_spacings(scene) ? " of the finest h" : "", describe_stability(scene));
-  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f})",
+  plan.line("memory", "about {:.0f} MB (fluid {:.0f}, membranes {:.0f}, adaptive steps {:.0f}, output {:.0f}){}",
             1e-6 * memory.total(), 1e-6 * memory.fluid, 1e-6 * memory.membranes, 1e-6 * memory.steps,
-            1e-6 * memory.output);
+            1e-6 * memory.output, memory_limit_warning(scene));
   plan.line("threads", "{}", threads);
 }
 
@@ -194,15 +199,7 @@ std::string describe_bending(const Scene& scene) {
                   grids[static_cast<std::size_t>(scene.membrane.upsampling)]);
   if (scene.membrane.spontaneous_curvature != 0.0)
     text += fmt::format(", spontaneous curvature {:g}", scene.membrane.spontaneous_curvature);
-  // Speeds of about 1/Ca where a shape is far from rest; docs/stability.md, reduced volume and capillary number.
-  double stiffest = scene.membrane.capillary_number;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, scene.capillary_number(i));
-  if (scene.time.step > 0.5 * stiffest && !scene.time.adaptive)
-    text += fmt::format(
-        "  <- WARNING: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g} or time.adaptive = "
-        "true",
-        0.5 * stiffest);
-  return text;
+  return text + bending_warning(scene);
 }
 
 // The solver of a problem, and why if it was left to choose.
@@ -219,7 +216,8 @@ void describe_fluid(Plan& plan, const Scene& scene) {
   const bool steps_in_time = scene.fluid.inertia != fluid::Inertia::none;
   plan.part(scene.fluid.inertia == fluid::Inertia::full, "convection", "skew-symmetric, extrapolated",
             "fluid.inertia is not \"full\"");
-  plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler", "fluid.inertia = \"none\"");
+  plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler" + inertia_warning(scene),
+            "fluid.inertia = \"none\"");
   plan.part(steps_in_time, "viscosity", "implicit: " + viscosity.solve, "fluid.inertia = \"none\"");
   plan.part(viscosity.is_variable, "indicator", viscosity.indicator, "the viscosity ratio of every vesicle is 1");
   plan.part(viscosity.is_variable, "variable viscosity", viscosity.treatment,

@@ -99,8 +99,7 @@ class Run {
   std::optional<std::filesystem::path> last_checkpoint_;
   long checkpointed_step_ = -1;
   RunQuality::Errors errors_at_checkpoint_;
-  std::vector<bool> warned_;  ///< of the resolution, per vesicle
-  bool warned_of_noise_ = false;
+  bool warned_of_noise_ = false, warned_of_resolution_ = false;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::optional<Progress> progress_;
   RunRecord record_;
@@ -229,17 +228,26 @@ bool Run::spoilt() {
   return true;
 }
 
-// Says once for each vesicle that its mesh has become too coarse for its shape.
+// Says once, of the vesicle that needs most, that meshes are too coarse for the shapes; not in the first steps, in which a shape that starts far
+// from rest settles. The warnings at the end say how many they were.
 void Run::warn_of_resolution() {
-  warned_.resize(simulation_.scene().vesicles.size());
-  for (std::size_t i = 0; i < warned_.size(); ++i) {
-    if (warned_[i]) continue;
-    const std::string warning = vesicle::resolution_warning(vesicle::resolution(simulation_.membrane(i).surface()));
-    if (warning.empty()) continue;
-    progress_->finish();
-    spdlog::warn("vesicle {} at t = {:.4g}: {}; see mesh.latitudes", i, simulation_.time(), warning);
-    warned_[i] = true;
+  constexpr long settling_steps = 10;
+  if (warned_of_resolution_ || (simulation_.steps() > 0 && simulation_.steps() <= settling_steps)) return;
+  std::size_t count = 0, worst = 0;
+  vesicle::Resolution of_worst;
+  for (std::size_t i = 0; i < simulation_.vesicle_count(); ++i) {
+    const vesicle::Resolution resolution = vesicle::resolution(simulation_.membrane(i).surface());
+    if (resolution.sufficient()) continue;
+    if (count++ > 0 && !(resolution.unresolved > of_worst.unresolved)) continue;
+    worst = i;
+    of_worst = resolution;
   }
+  if (count == 0) return;
+  progress_->finish();
+  spdlog::warn("vesicle {}{} at t = {:.4g}: {}; see mesh.latitudes", worst,
+               count > 1 ? fmt::format(" and {} others", count - 1) : "", simulation_.time(),
+               vesicle::resolution_warning(of_worst));
+  warned_of_resolution_ = true;
 }
 
 void Run::finish(const std::string& status) {

@@ -18,44 +18,113 @@ constexpr long settling_steps = 10;  // of a start, in which velocities jump
 constexpr double error_per_spacing = 0.19, corrected_error_per_spacing = 0.016;
 
 // What the studies cover.
-constexpr double largest_area_error = 1e-2, largest_volume_error = 1e-3, largest_local_area_error = 5e-2,
-                 largest_surface_divergence = 0.1, largest_spectrum_tail = 1e-4, largest_unresolved_bending = 0.05,
-                 largest_velocity_noise = 0.05, largest_courant_number = 2.0, largest_reynolds_number = 10.0,
-                 largest_divergence = 1e-8;
+constexpr double largest_reynolds_number = 10.0, largest_divergence = 1e-8;
+constexpr std::array<double, RunQuality::quantities> limits{1e-2, 1e-3, 5e-2, 0.1, 1e-4, 0.05, 0.05, 2.0};
 
-void raise(double& greatest, double value) {
-  if (!(std::abs(value) <= greatest)) greatest = std::abs(value);
+constexpr std::array<const char*, RunQuality::quantities> names{
+    "the relative error of an area",
+    "the relative error of a volume",
+    "the largest local area error",
+    "the largest surface divergence of the membrane's velocity",
+    "the spectrum's tail",
+    "the share of the bending force that the mesh does not resolve",
+    "the share of noise in a membrane's velocity",
+    "the Courant number of the membrane"};
+
+// What to do, of what the scene does not do already.
+std::string advice(RunQuality::Quantity quantity, const Scene& scene) {
+  const bool projects = scene.membrane.volume == vesicle::VolumeControl::projection;
+  switch (quantity) {
+    case RunQuality::area:
+      return scene.follows_shape()
+                 ? "shapes near a sphere cannot keep it, others do: take more mesh.latitudes or a smaller time.step"
+                 : "take time.markers = \"shape_following\", which keeps areas, or a larger membrane.sigma0";
+    case RunQuality::volume:
+      return fmt::format("take {}a smaller time.step", projects ? "" : "membrane.volume = \"projection\", or ");
+    case RunQuality::local_area:
+      return "the membrane is not inextensible: take a larger membrane.sigma0, or more mesh.latitudes";
+    case RunQuality::surface_divergence:
+      return "the tension is too soft or carries noise: take a smaller time.step, or another membrane.sigma0";
+    case RunQuality::velocity_noise:
+      return "results are averages over noise: take a smaller time.step";
+    case RunQuality::spectrum_tail:
+      return "take more mesh.latitudes";
+    case RunQuality::unresolved_bending:
+      return "take more mesh.latitudes (needed_latitudes says how many)";
+    case RunQuality::courant_number:
+    case RunQuality::quantities:
+      break;
+  }
+  return "more than has been tried: compare with half the time.step";
+}
+
+std::string where(const RunQuality::Excess& excess) {
+  if (excess.vesicles.size() < 2) return "";
+  const auto count = std::ranges::count(excess.vesicles, true);
+  if (count == 1) return fmt::format(", in vesicle {}", excess.worst_vesicle);
+  return fmt::format(", in {} of {} vesicles, most in vesicle {}", count, excess.vesicles.size(), excess.worst_vesicle);
+}
+
+std::string when(const RunQuality::Excess& excess, long last_step) {
+  if (excess.last_step >= last_step)
+    return excess.first_step == excess.last_step ? fmt::format("at t = {:.3g}", excess.first_time)
+                                                 : fmt::format("from t = {:.3g} on", excess.first_time);
+  if (excess.last_step == 0) return "at the start only";
+  if (excess.last_step <= settling_steps)
+    return fmt::format("in the first {} steps only, until t = {:.3g}", excess.last_step, excess.last_time);
+  if (excess.first_step == excess.last_step) return fmt::format("at t = {:.3g} only", excess.first_time);
+  return fmt::format("from t = {:.3g} to {:.3g}, below since then", excess.first_time, excess.last_time);
 }
 
 }  // namespace
 
-RunQuality::RunQuality(const Scene& scene) : scene_(scene) {}
+RunQuality::RunQuality(const Scene& scene) : scene_(scene) {
+  for (Excess& excess : errors_.excesses) excess.vesicles.assign(scene.vesicles.size(), false);
+}
+
+void RunQuality::raise(Quantity quantity, std::size_t vesicle, double value, const Simulation& simulation) {
+  double& greatest = errors_.greatest[quantity];
+  Excess& excess = errors_.excesses[quantity];
+  if (!(std::abs(value) <= greatest)) {
+    greatest = std::abs(value);
+    excess.worst_vesicle = vesicle;
+  }
+  if (std::abs(value) <= limits[quantity]) return;
+  if (excess.first_step < 0) {
+    excess.first_step = simulation.steps();
+    excess.first_time = simulation.time();
+  }
+  excess.last_step = simulation.steps();
+  excess.last_time = simulation.time();
+  excess.vesicles[vesicle] = true;
+}
 
 void RunQuality::observe_step(const Simulation& simulation) {
   if (++steps_ <= settling_steps) return;
   for (std::size_t i = 0; i < simulation.vesicle_count(); ++i) {
     const double speed = simulation.membrane_speed(i);
-    raise(errors_.velocity_noise, speed > 0.0 ? simulation.velocity_noise(i) / speed : 0.0);
-    raise(errors_.courant_number, speed * simulation.time_step() / scene_.spacing());
+    raise(velocity_noise, i, speed > 0.0 ? simulation.velocity_noise(i) / speed : 0.0, simulation);
+    raise(courant_number, i, speed * simulation.time_step() / scene_.spacing(), simulation);
   }
 }
 
 void RunQuality::observe(Simulation& simulation, std::span<const vesicle::Diagnostics> all,
                          std::span<const double> distances) {
-  raise(errors_.divergence, simulation.max_divergence());
+  errors_.last_step = simulation.steps();
+  if (const double div = simulation.max_divergence(); !(div <= errors_.divergence)) errors_.divergence = div;
   const fluid::Grid& grid = simulation.fluid().grid();
   for (std::size_t i = 0; i < all.size(); ++i) {
     errors_.membrane_gap = std::min(errors_.membrane_gap, distances[i] / scene_.spacing());
     errors_.wall_gap =
         std::min(errors_.wall_gap, wall_distance(grid, simulation.membrane(i).positions()) / scene_.spacing());
     const vesicle::Diagnostics& d = all[i];
-    raise(errors_.area, d.area_error);
-    raise(errors_.volume, d.volume_error);
-    raise(errors_.spectrum_tail, d.spectrum_tail);
-    if (std::isfinite(d.resolution.unresolved)) raise(errors_.unresolved_bending, d.resolution.unresolved);
+    raise(area, i, d.area_error, simulation);
+    raise(volume, i, d.volume_error, simulation);
+    raise(spectrum_tail, i, d.spectrum_tail, simulation);
+    if (std::isfinite(d.resolution.unresolved)) raise(unresolved_bending, i, d.resolution.unresolved, simulation);
     if (scene_.sigma0(i) == 0.0) continue;
-    raise(errors_.local_area, d.max_local_area_error);
-    if (simulation.steps() > settling_steps) raise(errors_.surface_divergence, d.surface_divergence_max);
+    raise(local_area, i, d.max_local_area_error, simulation);
+    if (simulation.steps() > settling_steps) raise(surface_divergence, i, d.surface_divergence_max, simulation);
   }
 }
 
@@ -72,28 +141,21 @@ RunQuality::SceneNumbers RunQuality::scene_numbers() const {
 
 std::vector<std::string> RunQuality::warnings() const {
   std::vector<std::string> all;
+  for (int i = 0; i < quantities; ++i) {
+    const auto quantity = static_cast<Quantity>(i);
+    const Excess& excess = errors_.excesses[quantity];
+    if (excess.first_step < 0) continue;
+    const bool settled = excess.last_step <= settling_steps && excess.last_step < errors_.last_step;
+    all.push_back(
+        fmt::format("{} is {:.3g}, above {:g}{}, {}: {}", names[quantity], errors_.greatest[quantity], limits[quantity],
+                    where(excess), when(excess, errors_.last_step),
+                    settled ? "it is of the start, and what comes later does not have it" : advice(quantity, scene_)));
+  }
   const auto warn_above = [&](double value, double limit, const char* what, const char* advice) {
     if (!(value <= limit)) all.push_back(fmt::format("{} is {:.3g}, above {:g}: {}", what, value, limit, advice));
   };
   const Errors& e = errors_;
   const SceneNumbers numbers = scene_numbers();
-  warn_above(e.area, largest_area_error, "the relative error of an area",
-             "take time.markers = \"shape_following\", which keeps areas, or a larger membrane.sigma0");
-  warn_above(e.volume, largest_volume_error, "the relative error of a volume",
-             "take membrane.volume = \"projection\", or a smaller time.step");
-  warn_above(e.local_area, largest_local_area_error, "the largest local area error",
-             "the membrane is not inextensible: take a larger membrane.sigma0, or more mesh.latitudes");
-  warn_above(e.surface_divergence, largest_surface_divergence,
-             "the largest surface divergence of the membrane's velocity",
-             "the tension is too soft or carries noise: take a smaller time.step, or another membrane.sigma0");
-  warn_above(e.velocity_noise, largest_velocity_noise, "the share of noise in a membrane's velocity",
-             "results are averages over noise: take a smaller time.step");
-  warn_above(e.spectrum_tail, largest_spectrum_tail, "the spectrum's tail", "take more mesh.latitudes");
-  warn_above(e.unresolved_bending, largest_unresolved_bending,
-             "the share of the bending force that the mesh does not resolve",
-             "take more mesh.latitudes (needed_latitudes says how many)");
-  warn_above(e.courant_number, largest_courant_number, "the Courant number of the membrane",
-             "more than has been tried: compare with half the time.step");
   warn_above(e.divergence, largest_divergence, "the divergence of the fluid's velocity",
              "it should be round-off: please report it, with the scene");
   warn_above(numbers.tension_number, numbers.stable_tension_number, "g = time.step membrane.sigma0/(4 h)",

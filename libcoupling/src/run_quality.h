@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <limits>
 #include <span>
 #include <string>
@@ -13,18 +14,36 @@ namespace vesiflow::coupling {
 /// what the studies of docs/validation.md and docs/stability.md cover.
 class RunQuality {
  public:
+  /// What is held against a limit for each vesicle.
+  enum Quantity {
+    area,
+    volume,
+    local_area,
+    surface_divergence,
+    spectrum_tail,
+    unresolved_bending,
+    velocity_noise,
+    courant_number,
+    quantities
+  };
+
+  /// Where and when a quantity was above its limit.
+  struct Excess {
+    std::size_t worst_vesicle = 0;
+    long first_step = -1, last_step = -1;  ///< -1: never
+    double first_time = 0.0, last_time = 0.0;
+    std::vector<bool> vesicles;  ///< that had it
+  };
+
   /// Greatest values, and least distances, over what has been observed; of all vesicles.
   struct Errors {
-    double area = 0.0, volume = 0.0;  ///< |relative|, of whole vesicles
-    double local_area = 0.0;          ///< max_local_area_error, where there is a tension
-    double surface_divergence =
-        0.0;  ///< of the membrane's velocity, in 1/t_c; not at time 0, where the shape has not answered yet
-    double spectrum_tail = 0.0;
-    double unresolved_bending = 0.0;  ///< share of the bending force beyond the mesh
-    double velocity_noise =
-        0.0;  ///< share of a membrane's velocity that changes from step to step and back; after the tenth step
-    double courant_number = 0.0;  ///< dt times the membranes' greatest speed over the spacing
-    double divergence = 0.0;      ///< |div u| of the fluid
+    /// |relative| of whole vesicles; max_local_area_error, where there is a tension; of the membrane's velocity, in 1/t_c, after the tenth
+    /// step, as the shape has not answered before; of the spectrum; share of the bending force beyond the mesh; share of a membrane's
+    /// velocity that changes from step to step and back, after the tenth step; dt times the membranes' greatest speed over the spacing.
+    std::array<double, quantities> greatest{};
+    std::array<Excess, quantities> excesses;
+    long last_step = 0;       ///< that was observed
+    double divergence = 0.0;  ///< |div u| of the fluid
     /// Least distance, in spacings, of a membrane to another one and to a wall; infinite where there is none.
     double membrane_gap = std::numeric_limits<double>::infinity(), wall_gap = membrane_gap;
   };
@@ -47,10 +66,12 @@ class RunQuality {
   };
   SceneNumbers scene_numbers() const;
 
-  /// A sentence for each number that is out of range, with what to do.
+  /// A sentence for each number that is out of range: where, when and what to do.
   std::vector<std::string> warnings() const;
 
  private:
+  void raise(Quantity quantity, std::size_t vesicle, double value, const Simulation& simulation);
+
   const Scene& scene_;
   Errors errors_;
   long steps_ = 0;  // observed

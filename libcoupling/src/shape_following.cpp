@@ -49,6 +49,12 @@ constexpr double safety_per_ratio = 3.0, viscous_memory = 0.5, safety_of_thin_fl
 // noise grows with 0.7 of it.
 constexpr double layer_of_curvature = 4.0;
 
+// Of waves that the fluid's grid resolves on a sphere.
+int grid_degrees(const Scene& scene, double radius) {
+  constexpr double largest_kh = 0.7 * std::numbers::pi;
+  return static_cast<int>(largest_kh * radius / scene.spacing());
+}
+
 }  // namespace
 
 Eigen::Map<Eigen::VectorXd> ShapeFollowing::as_vector(Coefficients& c) {
@@ -58,9 +64,7 @@ Eigen::Map<Eigen::VectorXd> ShapeFollowing::as_vector(Coefficients& c) {
 int ShapeFollowing::resolved_degrees(const Scene& scene, std::size_t vesicle, double radius) {
   const int latitudes = scene.latitudes(vesicle);
   const int chosen = scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(latitudes);
-  constexpr double largest_kh = 0.7 * std::numbers::pi;
-  const int by_grid = static_cast<int>(largest_kh * radius / scene.spacing());
-  return std::max(4, std::min(chosen, by_grid));
+  return std::max(4, std::min(chosen, grid_degrees(scene, radius)));
 }
 
 ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const vesicle::Membrane& membrane)
@@ -74,7 +78,7 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
       keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
       symmetry_(scene, membrane.positions()),
       harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
-      response_(harmonics_.degrees(), radius_, scene.finest_spacing(),
+      response_(std::max(harmonics_.degrees(), grid_degrees(scene, radius_)), radius_, scene.finest_spacing(),
                 scene.coupling.thickness_correction ? 0.0 : smoothed4_second_moment),
       operator_([this](const Gmres::Vector& x, Gmres::Vector& result) { apply_operator(x, result); }),
       stiffness_(static_cast<std::size_t>(harmonics_.degrees())) {
@@ -190,9 +194,27 @@ void ShapeFollowing::find_rates(const Surface& surface) {
   rates_.col(3) = divergence_ - ((velocity_ - mesh_velocity_) * vectors_).rowwise().sum();
 }
 
+// Per displacement.
+double ShapeFollowing::normal_force(double k) const {
+  return k * k * (bending_ * k * k + largest_tension_);
+}
+
+// The rate at which waves of degree n relax where the mesh is pressed together most: there they are as short as those of up to
+// `compression` times the degree on the sphere. A rim that is thinner than the sphere by 1.7 lets a wave that the fluid's grid resolves relax
+// up to 1.7^3 times faster, which c = 1.5 alone does not cover: an oblate of reduced volume 0.85 across the flow at h = R/21 then had noise that grew by 1.4 in
+// a step of 1/24, whatever sigma0. Three quarters of this rate are needed, and suffice at R/21 and R/32; a half is noisy. Coarser grids damp such waves.
+double ShapeFollowing::fastest_rate(int n, double compression) const {
+  if (is_thin_ || overestimate_) return 0.0;
+  double fastest = 0.0;
+  for (int m = n; m < response_.degrees() && m + 0.5 <= compression * (n + 0.5); ++m)
+    fastest = std::max(fastest, normal_force(response_.wavenumber(m)) * response_[m].normal.velocity);
+  return fastest;
+}
+
 void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
   const double inertia = acceleration_ / (acceleration_ + solved_viscosity_ / (radius_ * radius_));
-  const double least = is_thin_ ? safety * std::pow(greatest_compression(surface), 2) : safety;
+  const double compression = greatest_compression(surface);
+  const double least = is_thin_ ? safety * std::pow(compression, 2) : safety;
   const double lagging = least + std::max(0.0, safety_with_inertia - least) * inertia + lagging_viscosity_;
   const double c = overestimate_.value_or(lagging);
   // A uniform tension is all pressure but for the variation of the curvature, which acts as a force of low degree.
@@ -206,7 +228,7 @@ void ShapeFollowing::find_stiffness(double dt, const Surface& surface) {
   for (int n = 0; n < harmonics_.degrees(); ++n) {
     const double k = response_.wavenumber(n);
     const MembraneResponse::Mode& mode = response_[n];
-    const double force = c * k * k * (bending_ * k * k + largest_tension_);  // normal, per displacement
+    const double force = std::max(c * normal_force(k), fastest_rate(n, compression) / mode.normal.velocity);
     Stiffness& z = stiffness_[static_cast<std::size_t>(n)];
     z.position = dt * force * mode.normal.velocity;
     z.position_force = -force;

@@ -25,7 +25,8 @@ namespace vesiflow::coupling {
 ///   (a0 + Z_n + dt w.grad) d^{k+1} = (a1 + r (Z_n + dt w.grad)) d^k + dt (W, ds/dt)*
 /// Z_n is dt times the rate at which a mode of degree n relaxes by tension and bending (MembraneResponse), overestimated on
 /// purpose: the recurrence is stable if Z is at least 3/4 of the true rate, and exact to second order for any Z, as Z only meets
-/// d^{k+1} - r d^k. So the step is limited by accuracy, not by sigma0: sigma0 may be so large that strains are negligible.
+/// d^{k+1} - r d^k. Where the mesh is pressed together, at a rim or a tip, waves of degree n are shorter and relax faster: Z_n is no less than
+/// dt times the fastest of their rates (fastest_rate). So the step is limited by accuracy, not by sigma0: sigma0 may be so large that strains are negligible.
 /// A fluid with inertia, or with a viscosity that is explicit in part, must be told of the velocities that the corrections stand
 /// for: the next steps hand it the forces that its terms at old times lack (owed_force). Without them Z meets a fluid that does
 /// not remember, and the recurrence grows by up to a half in each step.
@@ -73,6 +74,8 @@ class ShapeFollowing : public MembraneMotion {
   void relax_mesh(double dt, const vesicle::Surface& surface);
   double greatest_compression(const vesicle::Surface& surface) const;
   void find_rates(const vesicle::Surface& surface);
+  double normal_force(double wavenumber) const;
+  double fastest_rate(int n, double compression) const;
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
   void solve_implicit_terms(double dt);

@@ -104,8 +104,10 @@ Simulation::~Simulation() = default;
 std::vector<vesicle::Diagnostics> Simulation::measure() {
   const PhaseTimer timer(phases_.diagnostics);
   std::vector<vesicle::Diagnostics> all(vesicles_.size());
-  for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
-    all[i] = vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.membrane);
+  or_stop(scene_, [&] {
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
+      all[i] = vesicle::measure(membrane(i), vesicles_[i]->velocities.fluid, vesicles_[i]->velocities.membrane);
+    });
   });
   return all;
 }
@@ -121,12 +123,9 @@ double Simulation::max_divergence() const {
 }
 
 const vesicle::Membrane& Simulation::membrane(std::size_t i) {
-  try {
-    vesicles_.at(i)->update();
-  } catch (const std::domain_error& error) {
-    throw SimulationStopped(error.what(), blow_up_advice(scene_));
-  }
-  return vesicles_[i]->membrane;
+  ImmersedVesicle& vesicle = *vesicles_.at(i);
+  or_stop(scene_, [&] { vesicle.update(); });
+  return vesicle.membrane;
 }
 
 double Simulation::velocity_noise(std::size_t i) const {

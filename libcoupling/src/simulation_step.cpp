@@ -25,16 +25,14 @@ constexpr long redistribution_interval = 16;
 }  // namespace
 
 void Simulation::step() {
-  try {
+  or_stop(scene_, [this] {
     if (step_control_)
       take_adaptive_step();
     else
       take_step(scene_.time.step);
     check_growth();
     redistribute_markers();
-  } catch (const std::domain_error& error) {
-    throw SimulationStopped(error.what(), blow_up_advice(scene_));
-  }
+  });
 }
 
 void Simulation::take_step(double dt) {
@@ -112,7 +110,9 @@ void Simulation::update_viscosity() {
 void Simulation::advance_fluid(double dt) {
   try {
     fluid_.step(dt);
-  } catch (const std::invalid_argument& error) {  // the velocity solver is made in the first step, or refused
+  } catch (const std::invalid_argument& error) {
+    if (fluid_.steps() > 0) throw;  // the state's fault
+    // The velocity solver is made in the first step, or refused.
     throw SceneError(fmt::format("fluid.velocity_solver: {}", error.what()));
   } catch (const std::runtime_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(scene_));

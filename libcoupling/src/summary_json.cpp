@@ -85,14 +85,14 @@ Json retries_of(const std::vector<RunRecord::Retry>& retries) {
 }
 
 Json errors_of(const RunQuality::Errors& errors) {
-  return {{"area", finite_or_null(errors.area)},
-          {"volume", finite_or_null(errors.volume)},
-          {"local_area", finite_or_null(errors.local_area)},
-          {"surface_divergence", finite_or_null(errors.surface_divergence)},
-          {"spectrum_tail", finite_or_null(errors.spectrum_tail)},
-          {"unresolved_bending", finite_or_null(errors.unresolved_bending)},
-          {"velocity_noise", finite_or_null(errors.velocity_noise)},
-          {"courant_number", finite_or_null(errors.courant_number)},
+  return {{"area", finite_or_null(errors.greatest[RunQuality::area])},
+          {"volume", finite_or_null(errors.greatest[RunQuality::volume])},
+          {"local_area", finite_or_null(errors.greatest[RunQuality::local_area])},
+          {"surface_divergence", finite_or_null(errors.greatest[RunQuality::surface_divergence])},
+          {"spectrum_tail", finite_or_null(errors.greatest[RunQuality::spectrum_tail])},
+          {"unresolved_bending", finite_or_null(errors.greatest[RunQuality::unresolved_bending])},
+          {"velocity_noise", finite_or_null(errors.greatest[RunQuality::velocity_noise])},
+          {"courant_number", finite_or_null(errors.greatest[RunQuality::courant_number])},
           {"membrane_gap", finite_or_null(errors.membrane_gap)},
           {"wall_gap", finite_or_null(errors.wall_gap)},
           {"divergence", finite_or_null(errors.divergence)}};

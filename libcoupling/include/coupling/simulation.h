@@ -41,6 +41,7 @@ struct ImmersedVesicle;
 class ExternalForces;
 class ImplicitStep;
 class StepControl;
+struct StepErrors;
 class ViscosityContrast;
 class BlowUpGuard;
 
@@ -123,6 +124,7 @@ class Simulation {
   void take_step(double dt);
   void take_adaptive_step();
   bool try_step(double dt, std::string& failure);
+  void weigh_step(std::size_t vesicle, StepErrors& errors);
   void remember();
   void take_back();
   void solve_step(double dt);
