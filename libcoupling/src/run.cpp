@@ -14,6 +14,7 @@
 #include "atomic_file.h"
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
+#include "coupling/start_from.h"
 #include "hdf5_file.h"
 #include "phase_timer.h"
 #include "progress.h"
@@ -136,6 +137,11 @@ void Run::start() {
     spdlog::info("continuing from {} at step {}, t = {:.6g}", options_.checkpoint->string(), simulation_.steps(),
                  simulation_.time());
   }
+  if (options_.start_from) {
+    start_from(*options_.start_from, simulation_);
+    const Start& start = *simulation_.started_from();
+    spdlog::info("starting from {}, at its t = {:.6g} after {} steps", start.run, start.time, start.steps);
+  }
   prepare_directory(directory_);
   const bool own = continues_own_directory();
   if (own) checkpointed_step_ = simulation_.steps();
@@ -145,6 +151,7 @@ void Run::start() {
       if (options_.checkpoint && !std::filesystem::exists(*options_.checkpoint)) last_checkpoint_.reset();
     }
   }
+  if (options_.start_from) write_checkpoint(directory_ / "start.h5", simulation_);
   table_.emplace(directory_);
   vesicle_snapshots_.emplace(directory_);
   fluid_snapshots_.emplace(directory_);
@@ -369,7 +376,7 @@ int exit_code::of(RunStatus status) {
 }
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
-  spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));
+  spdlog::set_default_logger(spdlog::stderr_color_mt("vesiflow"));
   spdlog::set_pattern("%^%l%$: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
   spare_hdf5_at_exit();

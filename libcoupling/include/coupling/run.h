@@ -10,11 +10,13 @@ namespace vesiflow::coupling {
 
 /// Where and how a simulation is run to its end.
 struct RunOptions {
-  std::string program = "vesiflow";                 ///< written into summary.json
-  std::string scene_file;                           ///< written into summary.json
-  std::filesystem::path directory = "out";          ///< of the results, docs/results.md
-  std::optional<std::filesystem::path> checkpoint;  ///< continue from it
-  bool quiet = false;                               ///< no progress
+  std::string program = "vesiflow";                                ///< written into summary.json
+  std::string scene_file = "";                                     ///< written into summary.json
+  std::filesystem::path directory = "out";                         ///< of the results, docs/results.md
+  std::optional<std::filesystem::path> checkpoint = std::nullopt;  ///< continue from it
+  std::optional<std::filesystem::path> start_from =
+      std::nullopt;    ///< or start from the end of this run, see start_from()
+  bool quiet = false;  ///< no progress
 };
 
 /// How a run has ended: at time.end; by Ctrl-C; by SIGTERM; at limits.wall_time.
@@ -24,7 +26,8 @@ enum class RunStatus { completed, interrupted, terminated, out_of_time };
 /// already in the directory are moved aside, or continued when the checkpoint is the directory's own. Ctrl-C,
 /// SIGTERM and limits.wall_time end the run after the step under way, with a checkpoint. With limits.on_blowup = "reduce_step" a
 /// step that cannot be taken sends the run back to its last checkpoint, from which it goes on with half the step.
-/// \throws SceneError for a checkpoint of another scene; FileError when a file cannot be read or written;
+/// A run that starts from another one keeps its start in start.h5, a checkpoint from which it can be repeated.
+/// \throws SceneError for a checkpoint of another scene, or a run to start from that does not fit; FileError when a file cannot be read or written;
 /// SimulationStopped, with step, time, cause and last checkpoint in its message, when the run cannot go on
 RunStatus run(Simulation& simulation, const RunOptions& options);
 
