@@ -22,6 +22,7 @@ forbid() {
 
 forbid "libvesicle knows no fluid" '(fluid|coupling)/' libvesicle tests/vesicle
 forbid "libfluid knows no vesicle" '(vesicle|coupling)/' libfluid tests/fluid
+forbid "common knows no library" '(vesicle|fluid|coupling)/' common
 forbid "public headers show no third-party library but Eigen" \
   'fftw3|cholmod|suitesparse|sundials|kinsol|cvode|arkode|hdf5|H5|omp\.h|toml|nlohmann' \
   lib{vesicle,fluid,coupling}/include

@@ -23,6 +23,7 @@ struct Arguments {
   std::string scene;
   std::string directory;
   std::string checkpoint;
+  std::string start_from;
   Overrides overrides;
   int threads = omp_get_max_threads();
   bool plan = false;
@@ -36,6 +37,11 @@ void declare(CLI::App& command_line, Arguments& arguments) {
       ->allow_extra_args(false);
   command_line.add_option("--threads", arguments.threads, "threads (default: all cores)")->check(CLI::Range(1, 1024));
   command_line.add_option("--restart", arguments.checkpoint, "continue from this checkpoint.h5");
+  command_line
+      .add_option("--start-from", arguments.start_from,
+                  "begin at t = 0 with vesicles and velocity of the end of this run: its folder or a checkpoint")
+      ->excludes("--restart")
+      ->needs("scene");
   command_line.add_flag("--plan", arguments.plan, "print what would be computed and written, then exit");
   command_line.add_flag("--quiet", arguments.quiet, "no progress");
 }
@@ -102,6 +108,7 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   options.scene_file = name;
   options.directory = directory_of(arguments);
   if (!arguments.checkpoint.empty()) options.checkpoint = arguments.checkpoint;
+  if (!arguments.start_from.empty()) options.start_from = arguments.start_from;
   options.quiet = arguments.quiet;
   options.command = command_to_repeat(argv[0], arguments);
   const RunStatus status = run(simulation, options);

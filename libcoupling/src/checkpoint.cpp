@@ -93,6 +93,31 @@ VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen:
   return state;
 }
 
+std::string start_name(std::size_t vesicle) {
+  return fmt::format("/start/vesicle_{}", vesicle);
+}
+
+void write_start(Hdf5File& file, const Start& start) {
+  file.attribute("/start", "run", start.run);
+  file.attribute("/start", "time", start.time);
+  file.attribute("/start", "steps", start.steps);
+  for (std::size_t i = 0; i < start.membranes.size(); ++i)
+    write_vesicle(file, start_name(i), {start.membranes[i], {}, 0});
+}
+
+std::shared_ptr<const Start> read_start(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
+  if (!file.exists("/start")) return nullptr;
+  auto start = std::make_shared<Start>();
+  start->run = file.read_text("/start", "run");
+  start->time = file.read_number("/start", "time");
+  start->steps = file.read_integer("/start", "steps");
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
+    const Eigen::Index latitudes = scene.latitudes(i);
+    start->membranes.push_back(read_vesicle(file, start_name(i), 2 * latitudes * latitudes, path).membrane);
+  }
+  return start;
+}
+
 // What may differ between the run that wrote a checkpoint and the one that continues it.
 bool may_differ(const std::string& key) {
   return key == "title" || key == "time.end" || key.starts_with("limits.") || key.starts_with("output.");
@@ -118,10 +143,11 @@ void check_same_scene(const Scene& written, const Scene& now, const std::filesys
     if (may_differ(key)) continue;
     const std::string& value = before.try_emplace(key, "absent").first->second;
     if (other_value != value)
-      throw SceneError(
-          fmt::format("{}: was written with {} = {}, this scene has {}; a restart keeps everything but title, "
-                      "time.end, limits and output",
-                      path.string(), key, value, other_value));
+      throw SceneError(fmt::format(
+          "{}: was written with {} = {}, this scene has {}; a restart keeps everything but title, "
+          "time.end, limits and output\n  --start-from in the place of --restart begins a new run, at t = 0, with "
+          "these vesicles and this velocity",
+          path.string(), key, value, other_value));
   }
   for (std::size_t i = 0; i < written.vesicles.size(); ++i)
     if (!same_surface(written.vesicles[i].surface, now.vesicles[i].surface))
@@ -202,7 +228,8 @@ auto as_input(const Read& read) {
 
 SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
   const fluid::Grid grid = grid_of(scene);
-  SimulationState state{fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}, {}};
+  SimulationState state{
+      fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}, {}, {}};
   state.clock = {.time = file.read_number("/", "time"),
                  .previous_time = file.read_number("/", "previous_time"),
                  .time_step = file.read_number("/", "time_step"),
@@ -215,6 +242,7 @@ SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::
     const Eigen::Index latitudes = scene.latitudes(i);
     state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
   }
+  state.start = read_start(file, scene, path);
   require_checksum(file, "state_checksum", checksum_of(state), "the state", path);
   return state;
 }
@@ -243,6 +271,7 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
                   static_cast<Eigen::Index>(state.step_control.size()));
     for (std::size_t i = 0; i < state.vesicles.size(); ++i)
       write_vesicle(file, fmt::format("/vesicle_{}", i), state.vesicles[i]);
+    if (state.start) write_start(file, *state.start);
     for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
       if (const auto& surface = scene.vesicles[i].surface) write_surface(file, surface_name(i), *surface);
     file.close();
@@ -251,6 +280,15 @@ void write_checkpoint(const std::filesystem::path& path, const Simulation& simul
 
 Scene read_checkpoint_scene(const std::filesystem::path& path, const Overrides& overrides) {
   return as_input([&] { return scene_of(Hdf5File(path, Hdf5File::Mode::read), path, overrides); });
+}
+
+CheckpointContents read_checkpoint(const std::filesystem::path& path) {
+  return as_input([&] {
+    const Hdf5File file(path, Hdf5File::Mode::read);
+    Scene scene = scene_of(file, path);
+    SimulationState state = read_state(file, scene, path);
+    return CheckpointContents{std::move(scene), std::move(state)};
+  });
 }
 
 void restore_checkpoint(const std::filesystem::path& path, Simulation& simulation) {

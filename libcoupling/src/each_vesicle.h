@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <exception>
 
+#include "short_waits.h"
+
 namespace vesiflow::coupling {
 
 /// Calls visit(i) for i < count: side by side where there are as many vesicles as threads, as one membrane is too small to keep
@@ -19,6 +21,7 @@ void for_each_vesicle(std::size_t count, const Visit& visit) {
   }
   std::size_t first = count;
   std::exception_ptr thrown;
+  keep_waits_short();
 #pragma omp parallel for schedule(dynamic)
   for (std::size_t i = 0; i < count; ++i) {
     try {

@@ -4,6 +4,9 @@
 
 namespace vesiflow::coupling {
 
+QuietHdf5::QuietHdf5() = default;
+QuietHdf5::~QuietHdf5() = default;
+
 bool have_hdf5() {
   return false;
 }

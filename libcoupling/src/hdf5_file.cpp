@@ -35,11 +35,6 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-// Failures become exceptions, not print-outs.
-void be_quiet() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
 // What the system said of the call that failed last, such as "No space left on device"; that of memory is not in HDF5's text.
 // Empty if it was not the system.
 std::string system_error() {
@@ -133,6 +128,23 @@ bool make_parents(hid_t file, const std::string& name) {
 
 }  // namespace
 
+QuietHdf5::QuietHdf5() {
+  unsigned is_new = 1;
+  H5Eauto_is_v2(H5E_DEFAULT, &is_new);
+  if (is_new == 0)
+    H5Eget_auto1(&old_print_, &data_);
+  else
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+QuietHdf5::~QuietHdf5() {
+  if (old_print_ != nullptr)
+    H5Eset_auto1(old_print_, data_);
+  else
+    H5Eset_auto2(H5E_DEFAULT, print_, data_);
+}
+
 bool have_hdf5() {
   return true;
 }
@@ -142,7 +154,6 @@ void spare_hdf5_at_exit() {
 }
 
 Hdf5File::Hdf5File(const std::filesystem::path& path, Mode mode) : path_(path) {
-  be_quiet();
   require_memory();
   const std::string name = path.string();
   const Handle access = checksummed_access(), creation = timeless(H5P_FILE_CREATE);

@@ -7,6 +7,20 @@
 
 namespace vesiflow::coupling {
 
+/// While it lives, failures of HDF5 are not printed; then they are again, by whatever the host program had set.
+class QuietHdf5 {
+ public:
+  QuietHdf5();
+  ~QuietHdf5();
+  QuietHdf5(const QuietHdf5&) = delete;
+  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+ private:
+  int (*print_)(std::int64_t, void*) = nullptr;  ///< H5E_auto2_t
+  int (*old_print_)(void*) = nullptr;            ///< H5E_auto1_t, if the host uses the old interface
+  void* data_ = nullptr;
+};
+
 /// The few things this library asks of HDF5. Names of groups and datasets are absolute paths; missing groups are
 /// made. Every failure is a FileError naming the file, the object and what the system said. Built without HDF5, opening
 /// a file throws. What is written has checksums: of the data (Fletcher-32, by chunks) and of the metadata (the file
@@ -52,6 +66,7 @@ class Hdf5File {
                        const void* value);
   void read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value) const;
 
+  QuietHdf5 quiet_;  ///< failures become exceptions
   std::filesystem::path path_;
   std::int64_t file_ = -1;
 };

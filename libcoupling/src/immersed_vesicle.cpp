@@ -34,6 +34,14 @@ vesicle::MembraneParameters membrane_parameters(const Scene& scene, std::size_t 
   return parameters;
 }
 
+vesicle::Membrane make_membrane(const Scene& scene, std::size_t i, const vesicle::MembraneState* start) {
+  const int latitudes = scene.latitudes(i);
+  vesicle::Membrane membrane(start != nullptr ? start->positions : initial_markers(scene.vesicles[i], latitudes),
+                             latitudes, membrane_parameters(scene, i));
+  if (start != nullptr) membrane.restore(*start);
+  return membrane;
+}
+
 }  // namespace
 
 int moving_degrees(const Scene& scene, std::size_t i) {
@@ -41,9 +49,9 @@ int moving_degrees(const Scene& scene, std::size_t i) {
   return degrees > 0 ? degrees : vesicle::two_thirds_degrees(scene.latitudes(i));
 }
 
-ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid)
-    : membrane(initial_markers(scene.vesicles[number], scene.latitudes(number)), scene.latitudes(number),
-               membrane_parameters(scene, number)),
+ImmersedVesicle::ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid,
+                                 const vesicle::MembraneState* start)
+    : membrane(make_membrane(scene, number, start)),
       transfer(grid, scene.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
       motion(make_membrane_motion(scene, number, membrane)) {
   if (scene.coupling.thickness_correction)

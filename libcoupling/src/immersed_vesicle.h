@@ -18,7 +18,9 @@ namespace vesiflow::coupling {
 
 /// One vesicle in the fluid: its membrane, the transfers between its markers and the grid, and how it moves.
 struct ImmersedVesicle {
-  ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid);
+  /// As the scene has it, or with a membrane to start from.
+  ImmersedVesicle(const Scene& scene, std::size_t number, const fluid::Grid& grid,
+                  const vesicle::MembraneState* start = nullptr);
 
   /// Geometry and forces at the present state; looking at a vesicle between two steps costs the next step nothing, unless
   /// that predicts.

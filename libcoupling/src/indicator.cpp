@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fluid/operators.h"
+#include "short_waits.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -56,6 +57,7 @@ void Indicator::solve(fluid::Field<fluid::Cell>& field) {
   const fluid::Grid& grid = field.grid();
   const double mean = content_ / (grid.length(0) * grid.length(1) * grid.length(2));
   clear();
+  keep_waits_short();
 #pragma omp parallel for schedule(static)
   for (int k = 0; k < field.extent(2); ++k) {
     for (int j = 0; j < field.extent(1); ++j) {

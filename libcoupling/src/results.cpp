@@ -23,8 +23,9 @@
 namespace vesiflow::coupling {
 namespace {
 
-constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5", "vesicle.xdmf", "fluid.h5",
-                                     "fluid.xdmf",   "checkpoint.h5",   "scene.toml", "pictures",     snapshots_folder};
+constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5",    "vesicle.xdmf",
+                                     "fluid.h5",     "fluid.xdmf",      "checkpoint.h5", "scene.toml",
+                                     "pictures",     "start.h5",        snapshots_folder};
 
 long step_of(const std::string& row, const std::filesystem::path& file) {
   long step = 0;

@@ -13,6 +13,7 @@
 #include "atomic_file.h"
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
+#include "coupling/start_from.h"
 #include "folder_lock.h"
 #include "hdf5_file.h"
 #include "phase_timer.h"
@@ -128,6 +129,11 @@ void Run::start() {
     spdlog::info("continuing from {} at step {}, t = {:.6g}", options_.checkpoint->string(), simulation_.steps(),
                  simulation_.time());
   }
+  if (options_.start_from) {
+    start_from(*options_.start_from, simulation_);
+    const Start& start = *simulation_.started_from();
+    spdlog::info("starting from {}, at its t = {:.6g} after {} steps", start.run, start.time, start.steps);
+  }
   lock_.emplace(options_.directory);
   directory_ = lock_->folder();
   if (const auto& owner = lock_->taken_from()) spdlog::info("taken over from a run that is gone ({})", *owner);
@@ -140,6 +146,7 @@ void Run::start() {
       if (options_.checkpoint && !std::filesystem::exists(*options_.checkpoint)) last_checkpoint_.reset();
     }
   }
+  if (options_.start_from) write_checkpoint(directory_ / "start.h5", simulation_);
   table_.emplace(directory_);
   vesicle_snapshots_.emplace(directory_, vesicle_snapshots(simulation_));
   fluid_snapshots_.emplace(directory_, fluid_snapshots(simulation_));
@@ -389,7 +396,7 @@ int exit_code::of(RunStatus status) {
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   keep_standard_streams();
-  spdlog::set_default_logger(spdlog::stderr_color_st("vesiflow"));
+  spdlog::set_default_logger(spdlog::stderr_color_mt("vesiflow"));
   spdlog::set_pattern("%^%l%$: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
   std::signal(SIGPIPE, SIG_IGN);  // so does writing what nobody reads any more

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
+#include <locale>
 #include <set>
 #include <sstream>
 
@@ -31,8 +31,18 @@ constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 std::string show(const toml::node& node) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   node.visit([&](const auto& value) { text << value; });
   return text.str();
+}
+
+// The number that is all of the text, whatever the decimal sign of the host program's locale; not a number if there is none.
+double number_in(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = nan_value;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : nan_value;
 }
 
 // Number of single-character edits between two keys; for "did you mean".
@@ -206,9 +216,7 @@ class Reader final : public KeyVisitor {
     // Names that are numbers may be given as such: upsampling = 1.5 for "1.5".
     const auto is_given = [&](std::string_view name) {
       if (!node->is_number()) return node->is_string() && name == node->as_string()->get();
-      char* end = nullptr;
-      const std::string text(name);
-      return std::strtod(text.c_str(), &end) == to_number(*node) && *end == '\0';
+      return number_in(name) == to_number(*node);
     };
     const auto found = std::ranges::find_if(names, is_given);
     if (found == names.end()) refuse(key, *node, fmt::format("allowed are {}", fmt::join(names, ", ")));
@@ -234,15 +242,10 @@ class Reader final : public KeyVisitor {
     if (node.is_floating_point()) return node.as_floating_point()->get();
     if (node.is_integer()) return static_cast<double>(node.as_integer()->get());
     if (!node.is_string()) return nan_value;
-    const std::string text = node.as_string()->get();
+    const std::string_view text = node.as_string()->get();
     const std::size_t slash = text.find('/');
-    if (slash == std::string::npos) return nan_value;
-    const auto part = [](const std::string& digits) {
-      char* end = nullptr;
-      const double value = std::strtod(digits.c_str(), &end);
-      return !digits.empty() && *end == '\0' ? value : nan_value;
-    };
-    return part(text.substr(0, slash)) / part(text.substr(slash + 1));
+    if (slash == std::string_view::npos) return nan_value;
+    return number_in(text.substr(0, slash)) / number_in(text.substr(slash + 1));
   }
 
   double checked(std::string_view key, const toml::node& whole, const toml::node& node, const Range& range) const {

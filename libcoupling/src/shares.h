@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "short_waits.h"
+
 namespace vesiflow::coupling {
 
 /// Calls work(begin, end) for shares of [0, count), one a thread. Inside a parallel region, whose threads have work of their own and where
@@ -14,6 +16,7 @@ void in_shares(Eigen::Index count, const Work& work) {
     work(Eigen::Index{0}, count);
     return;
   }
+  keep_waits_short();
 #pragma omp parallel
   {
     const Eigen::Index threads = omp_get_num_threads(), thread = omp_get_thread_num();

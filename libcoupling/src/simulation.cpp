@@ -83,14 +83,11 @@ Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
   if (scene_.flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow.velocity(x, 0.0); });
   if (scene_.domain.periodic[0]) fluid_.uniform_force()[0] = flow.driving_force;
-  for (std::size_t i = 0; i < scene_.vesicles.size(); ++i)
-    vesicles_.push_back(std::make_unique<ImmersedVesicle>(scene_, i, fluid_.grid()));
-  external_forces_ = std::make_unique<ExternalForces>(scene_, fluid_.grid(), vesicles_);
+  make_vesicles();
   if (scene_.mesh.redistribute == Redistribute::when_needed)
     for (std::size_t i = 0; i < vesicles_.size(); ++i)
       redistributions_.try_emplace(scene_.latitudes(i), scene_.latitudes(i), moving_degrees(scene_, i));
   last_redistributions_.reserve(vesicles_.size());
-  if (scene_.time.markers == "implicit") implicit_step_ = std::make_unique<ImplicitStep>(scene_, vesicles_);
   if (scene_.time.adaptive) step_control_ = std::make_unique<StepControl>(scene_);
   const bool walls_are_known = type != FlowType::custom;
   guard_ = std::make_unique<BlowUpGuard>(
@@ -100,6 +97,19 @@ Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
 }
 
 Simulation::~Simulation() = default;
+
+// And what refers to them.
+void Simulation::make_vesicles() {
+  implicit_step_.reset();
+  external_forces_.reset();
+  vesicles_.clear();
+  for (std::size_t i = 0; i < scene_.vesicles.size(); ++i) {
+    const vesicle::MembraneState* membrane = start_ ? &start_->membranes[i] : nullptr;
+    vesicles_.push_back(std::make_unique<ImmersedVesicle>(scene_, i, fluid_.grid(), membrane));
+  }
+  external_forces_ = std::make_unique<ExternalForces>(scene_, fluid_.grid(), vesicles_);
+  if (scene_.time.markers == "implicit") implicit_step_ = std::make_unique<ImplicitStep>(scene_, vesicles_);
+}
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {
   const PhaseTimer timer(phases_.diagnostics);
@@ -203,9 +213,24 @@ PartEntries Simulation::part_entries() const {
   return sum;
 }
 
+void Simulation::start(std::shared_ptr<const Start> start, const fluid::FaceVector& velocity,
+                       const fluid::Field<fluid::Cell>& pressure) {
+  fluid_.start_from(velocity, pressure);
+  SimulationState anew = state();
+  anew.vesicles.clear();
+  for (const vesicle::MembraneState& membrane : start->membranes) anew.vesicles.push_back({membrane, {}, 0});
+  anew.start = std::move(start);
+  restore(anew);
+}
+
 SimulationState Simulation::state() const {
-  SimulationState state{
-      fluid_.velocity().clone(), fluid_.previous_velocity().clone(), fluid_.pressure().clone(), fluid_.clock(), {}, {}};
+  SimulationState state{fluid_.velocity().clone(),
+                        fluid_.previous_velocity().clone(),
+                        fluid_.pressure().clone(),
+                        fluid_.clock(),
+                        {},
+                        {},
+                        start_};
   for (const auto& v : vesicles_) {
     const auto history = v->motion->history();
     state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
@@ -218,7 +243,14 @@ void Simulation::restore(const SimulationState& state) {
   if (state.vesicles.size() != vesicles_.size())
     throw std::invalid_argument(
         fmt::format("the state has {} vesicles, the scene {}", state.vesicles.size(), vesicles_.size()));
+  if (state.start && state.start->membranes.size() != vesicles_.size())
+    throw std::invalid_argument(fmt::format("the state has started from {} vesicles, the scene has {}",
+                                            state.start->membranes.size(), vesicles_.size()));
   fluid_.restore(state.velocity, state.previous_velocity, state.pressure, state.clock);
+  if (state.start || start_) {  // what membranes keep of their start depends on it
+    start_ = state.start;
+    make_vesicles();
+  }
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
     v.membrane.restore(state.vesicles[i].membrane);

@@ -15,6 +15,12 @@ void add_velocity(Checksum& sum, const fluid::FaceVector& u) {
   add_array(sum, u.z);
 }
 
+void add_membrane(Checksum& sum, const vesicle::MembraneState& m) {
+  add_array(sum, m.positions);
+  for (const auto* field : {&m.target_areas, &m.initial_areas, &m.lagged_strain, &m.integral_tension})
+    add_array(sum, *field);
+}
+
 void add_surface(Checksum& sum, const vesicle::Coefficients& surface) {
   for (int field = 0; field < 3; ++field)
     for (int n = 0; n < surface.degrees(); ++n)
@@ -35,13 +41,19 @@ std::int64_t checksum_of(const SimulationState& state) {
   add_array(sum, state.pressure);
   add_array(sum, state.step_control);
   for (const VesicleState& vesicle : state.vesicles) {
-    const vesicle::MembraneState& m = vesicle.membrane;
-    add_array(sum, m.positions);
-    for (const auto* field : {&m.target_areas, &m.initial_areas, &m.lagged_strain, &m.integral_tension})
-      add_array(sum, *field);
+    add_membrane(sum, vesicle.membrane);
     add_array(sum, vesicle.motion_history);
-    sum.add(m.initial_volume);
+    sum.add(vesicle.membrane.initial_volume);
     sum.add(vesicle.redistributions);
+  }
+  if (state.start) {
+    sum.add(state.start->run);
+    sum.add(state.start->time);
+    sum.add(state.start->steps);
+    for (const vesicle::MembraneState& membrane : state.start->membranes) {
+      add_membrane(sum, membrane);
+      sum.add(membrane.initial_volume);
+    }
   }
   return sum.value();
 }

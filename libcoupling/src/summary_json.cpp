@@ -117,6 +117,9 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   summary["version"] = VESIFLOW_VERSION;
   summary["git_revision"] = VESIFLOW_GIT_REVISION;
   summary["scene"] = options.scene_file;
+  const Start* start = simulation.started_from();
+  summary["started_from"] =
+      start ? Json{{"run", start->run}, {"time", start->time}, {"steps", start->steps}} : Json(nullptr);
   summary["parameters"] = parameters_of(simulation.scene());
   summary["threads"] = omp_get_max_threads();
   summary["steps"] = simulation.steps();

@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <mutex>
+
 namespace vesiflow::fluid {
 namespace {
 
@@ -20,16 +22,24 @@ const OpenBlas& open_blas() {
   return functions;
 }
 
+std::mutex mutex;  // over these
+int alive = 0;
+int threads_before = 1;
+
 }  // namespace
 
 OneBlasThread::OneBlasThread() {
   if (!open_blas().found()) return;
-  before_ = open_blas().get();
-  if (before_ > 1) open_blas().set(1);
+  const std::lock_guard lock(mutex);
+  if (alive++ > 0) return;
+  threads_before = open_blas().get();
+  if (threads_before > 1) open_blas().set(1);
 }
 
 OneBlasThread::~OneBlasThread() {
-  if (before_ > 1) open_blas().set(before_);
+  if (!open_blas().found()) return;
+  const std::lock_guard lock(mutex);
+  if (--alive == 0 && threads_before > 1) open_blas().set(threads_before);
 }
 
 }  // namespace vesiflow::fluid

@@ -5,16 +5,14 @@ namespace vesiflow::fluid {
 
 // While it lives, OpenBLAS uses one thread: with several it divides its products otherwise, and the last bits of a
 // factor would depend on the number of threads (which it takes from OMP_NUM_THREADS, among others). The number of
-// before is restored. Does nothing for another BLAS.
+// before is restored. Does nothing for another BLAS. The number is the process's: where threads of a host program factor side
+// by side, the first takes it to one, and the last to leave gives it back.
 class OneBlasThread {
  public:
   OneBlasThread();
   ~OneBlasThread();
   OneBlasThread(const OneBlasThread&) = delete;
   OneBlasThread& operator=(const OneBlasThread&) = delete;
-
- private:
-  int before_ = 1;
 };
 
 }  // namespace vesiflow::fluid

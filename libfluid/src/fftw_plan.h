@@ -3,13 +3,11 @@
 
 #include <fftw3.h>
 
-#include <mutex>
 #include <stdexcept>
 
-namespace vesiflow::fluid {
+#include "fftw_planner.h"
 
-// FFTW's planner keeps global state: making and destroying plans must not overlap.
-inline std::mutex fftw_planner_mutex;
+namespace vesiflow::fluid {
 
 // Plans are made with FFTW_ESTIMATE and not FFTW_MEASURE: a measured plan depends on the load of the machine, and with
 // the plan the order of the additions. This way a restart in another process gives the same bits, and so does every
@@ -19,14 +17,11 @@ class FftwPlan {
   // make() calls one of FFTW's planners. Throws std::runtime_error if that makes no plan.
   template <class Make>
   explicit FftwPlan(const Make& make) {
-    const std::lock_guard lock(fftw_planner_mutex);
+    lock_fftw_planner();
     plan_ = make();
     if (plan_ == nullptr) throw std::runtime_error("transform: FFTW made no plan");
   }
-  ~FftwPlan() {
-    const std::lock_guard lock(fftw_planner_mutex);
-    fftw_destroy_plan(plan_);
-  }
+  ~FftwPlan() { fftw_destroy_plan(plan_); }
   FftwPlan(const FftwPlan&) = delete;
   FftwPlan& operator=(const FftwPlan&) = delete;
 

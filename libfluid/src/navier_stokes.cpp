@@ -18,6 +18,10 @@ void NavierStokes::set_velocity(const std::function<Vector3(const Vector3&)>& ve
   stepper_->set_velocity(velocity);
 }
 
+void NavierStokes::start_from(const FaceVector& velocity, const Field<Cell>& pressure) {
+  stepper_->start_from(velocity, pressure);
+}
+
 void NavierStokes::restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                            const FluidClock& clock) {
   stepper_->restore(velocity, previous_velocity, pressure, clock);

@@ -80,6 +80,7 @@ double PlaneSolver::solve(ConstView rhs, View x) {
   };
   if (worth_threads(extent_)) {
     const int threads = std::min(static_cast<int>(scratch_.size()), omp_get_max_threads());
+    keep_waits_short();
 #pragma omp parallel num_threads(threads)
     {
       Scratch& scratch = scratch_[omp_get_thread_num()];

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "short_waits.h"
+
 namespace vesiflow::fluid {
 
 // Below this many numbers a loop takes less time than waking another thread (about 10 microseconds if it sleeps).
@@ -26,6 +28,7 @@ inline double magnitude(double value) {
 template <class Body>
 void for_each_plane(const std::array<int, 3>& extent, Body&& body) {
   if (worth_threads(extent)) {
+    keep_waits_short();
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < extent[2]; ++k) body(k);
   } else {
@@ -38,6 +41,7 @@ template <class Value>
 double max_over_planes(const std::array<int, 3>& extent, Value&& value) {
   double largest = -std::numeric_limits<double>::infinity();
   if (worth_threads(extent)) {
+    keep_waits_short();
 #pragma omp parallel for schedule(static) reduction(max : largest)
     for (int k = 0; k < extent[2]; ++k) largest = std::max(largest, value(k));
   } else {

@@ -94,6 +94,19 @@ bool is_finite(ConstView field) {
   }));
 }
 
+void remove_mean(Field<Cell>& field) {
+  const View values = field.points();
+  const auto [nx, ny, nz] = values.extent;
+  double sum = 0.0;
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) sum += values(i, j, k);
+  const double mean = sum / (static_cast<double>(nx) * ny * nz);
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) values(i, j, k) -= mean;
+}
+
 bool is_finite(const FaceVector& u) {
   return is_finite(u.x.unknowns()) && is_finite(u.y.unknowns()) && is_finite(u.z.unknowns());
 }
@@ -192,6 +205,18 @@ void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& functio
     fields[component](i, j, k) = function(r)[component];
   });
   start();
+}
+
+void Stepper::start_from(const FaceVector& velocity_, const Field<Cell>& pressure_) {
+  if (!(velocity_.grid() == grid && pressure_.grid() == grid))
+    throw std::invalid_argument("fluid: the fields to start from are on another grid");
+  if (!(is_finite(velocity_) && is_finite(pressure_.points())))
+    throw std::invalid_argument("fluid: the fields to start from are not finite");
+  copy(velocity_, velocity);
+  start();
+  copy(pressure_, pressure);
+  remove_mean(pressure);
+  extend_to_ghosts(pressure);
 }
 
 void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, const Field<Cell>& pressure_,

@@ -21,6 +21,7 @@ class Stepper {
   Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary, bool steady_boundary);
 
   void set_velocity(const std::function<Vector3(const Vector3&)>& function);
+  void start_from(const FaceVector& velocity, const Field<Cell>& pressure);
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                const FluidClock& clock);
   void step(double dt);

@@ -1,15 +1,11 @@
 #include "longitude_transform.h"
 
-#include <mutex>
 #include <stdexcept>
 
-#include <fftw3.h>
+#include "fftw_planner.h"
 
 namespace vesiflow::vesicle {
 namespace {
-
-/// FFTW's planner, unlike its transforms, is not to be used by two threads at once.
-std::mutex planner_mutex;
 
 fftw_complex* as_fftw(std::complex<double>* data) {
   return reinterpret_cast<fftw_complex*>(data);
@@ -19,13 +15,11 @@ fftw_complex* as_fftw(std::complex<double>* data) {
 
 LongitudeTransform::LongitudeTransform(int latitudes, int longitudes) : latitudes_(latitudes), longitudes_(longitudes) {
   reserve(1);
-  const std::lock_guard lock(planner_mutex);
   if (blocks() > 1) full_ = make_plans(block_rings);
   last_ = make_plans(rings_of(blocks() - 1));
 }
 
 LongitudeTransform::~LongitudeTransform() {
-  const std::lock_guard lock(planner_mutex);
   for (const Plans& plans : {full_, last_})
     for (void* plan : {plans.forward, plans.backward})
       if (plan) fftw_destroy_plan(static_cast<fftw_plan>(plan));
@@ -38,6 +32,7 @@ LongitudeTransform::Plans LongitudeTransform::make_plans(int rings) {
   fftw_complex* const modes = as_fftw(modes_.get());
   fftw_complex* const values = as_fftw(scratch.get());
   const int n[] = {longitudes_};
+  lock_fftw_planner();
   const Plans plans{fftw_plan_many_dft(1, n, rings, values, nullptr, 1, longitudes_, modes, nullptr, block_rings, 1,
                                        FFTW_FORWARD, FFTW_ESTIMATE),
                     fftw_plan_many_dft(1, n, rings, modes, nullptr, block_rings, 1, values, nullptr, 1, longitudes_,

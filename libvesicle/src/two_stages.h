@@ -4,6 +4,8 @@
 
 #ifdef _OPENMP
 #include <omp.h>
+
+#include "short_waits.h"
 #endif
 
 namespace vesiflow::vesicle {
@@ -24,6 +26,7 @@ template <class First, class Second>
 void in_two_stages([[maybe_unused]] int threads, const First& first, const Second& second) {
 #ifdef _OPENMP
   if (threads > 1) {
+    keep_waits_short();
 #pragma omp parallel num_threads(threads)
     {
       first(omp_get_thread_num(), omp_get_num_threads());

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stdexcept>
 
+#include "cholmod_blas.h"
 #include "cholmod_estimate.h"
 #include "cholmod_solver.h"
 #include "fluid/elliptic_solver.h"
@@ -256,6 +258,26 @@ TEST(CholmodSolver, HasTheSameBitsForAnyNumberOfBlasThreads) {
   }
   set(before);
   EXPECT_TRUE(x[0].same_bits(x[1]));
+}
+
+// Two threads of a host program may factor side by side.
+TEST(CholmodSolver, TheLastToLeaveGivesBackTheBlasThreads) {
+  using Get = int (*)();
+  using Set = void (*)(int);
+  const auto get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  const auto set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  if (get == nullptr || set == nullptr) GTEST_SKIP() << "the BLAS is not OpenBLAS";
+  const int before = get();
+  set(2);
+  const int granted = get();
+  auto first = std::make_unique<OneBlasThread>();
+  auto second = std::make_unique<OneBlasThread>();
+  EXPECT_EQ(get(), 1);
+  first.reset();
+  EXPECT_EQ(get(), 1) << "the second is still at work";
+  second.reset();
+  EXPECT_EQ(get(), granted);
+  set(before);
 }
 
 }  // namespace

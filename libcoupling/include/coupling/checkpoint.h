@@ -16,6 +16,14 @@ void write_checkpoint(const std::filesystem::path& file, const Simulation& simul
 /// \throws SceneError when the file cannot be read or an override is refused
 Scene read_checkpoint_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 
+/// All that a checkpoint says.
+struct CheckpointContents {
+  Scene scene;
+  SimulationState state;
+};
+/// \throws SceneError when the file cannot be read or is damaged
+CheckpointContents read_checkpoint(const std::filesystem::path& file);
+
 /// Puts `simulation` in the state of the checkpoint: from there it goes on bit for bit as the run that wrote it.
 /// \throws SceneError when the file is unreadable or damaged, or naming the key when the two scenes differ in anything
 /// but title, time.end, limits and output

@@ -11,14 +11,16 @@ namespace vesiflow::coupling {
 
 /// Where and how a simulation is run to its end.
 struct RunOptions {
-  std::string program = "vesiflow";                 ///< written into summary.json
-  std::string scene_file;                           ///< written into summary.json
-  std::filesystem::path directory = "out";          ///< of the results, docs/results.md
-  std::optional<std::filesystem::path> checkpoint;  ///< continue from it
-  bool quiet = false;                               ///< no progress
+  std::string program = "vesiflow";                                ///< written into summary.json
+  std::string scene_file = "";                                     ///< written into summary.json
+  std::filesystem::path directory = "out";                         ///< of the results, docs/results.md
+  std::optional<std::filesystem::path> checkpoint = std::nullopt;  ///< continue from it
+  std::optional<std::filesystem::path> start_from =
+      std::nullopt;    ///< or start from the end of this run, see start_from()
+  bool quiet = false;  ///< no progress
   /// The program and the options to keep, as words. A run that ends early says this command with what continues it:
   /// --restart CHECKPOINT --out DIRECTORY. Where it is empty, only the checkpoint is named.
-  std::vector<std::string> command;
+  std::vector<std::string> command = {};
 };
 
 /// How a run has ended: at time.end; by Ctrl-C (SIGINT); by SIGTERM; by SIGHUP; by SIGUSR1; by SIGUSR2; at limits.wall_time.
@@ -29,8 +31,10 @@ enum class RunStatus { completed, interrupted, terminated, hung_up, user_signal_
 /// directory is its alone: another run is refused. The signals of RunStatus and limits.wall_time end the run after the step under
 /// way, with a checkpoint (unless output.checkpoint_every is 0), and say how to go on. With limits.on_blowup = "reduce_step" a
 /// step that cannot be taken sends the run back to its last checkpoint, from which it goes on with half the step.
-/// \throws SceneError for a checkpoint of another scene; FileError when a file cannot be read or written, or another
-/// run has the directory; SimulationStopped, with step, time, cause and last checkpoint in its message, when the run cannot go on
+/// A run that starts from another one keeps its start in start.h5, a checkpoint from which it can be repeated.
+/// \throws SceneError for a checkpoint of another scene, or a run to start from that does not fit; FileError when a file cannot
+/// be read or written, or another run has the directory; SimulationStopped, with step, time, cause and last checkpoint in its
+/// message, when the run cannot go on
 RunStatus run(Simulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.

@@ -29,12 +29,20 @@ struct VesicleState {
   std::vector<double> motion_history;
   std::int64_t redistributions = 0;
 };
+/// The end of another run that a simulation has started from, for the summary and for continued runs.
+struct Start {
+  std::string run;  ///< the checkpoint that was read
+  double time = 0.0;
+  std::int64_t steps = 0;
+  std::vector<vesicle::MembraneState> membranes;  ///< on the meshes of this simulation, at its t = 0
+};
 struct SimulationState {
   fluid::FaceVector velocity, previous_velocity;
   fluid::Field<fluid::Cell> pressure;
   fluid::FluidClock clock;
   std::vector<VesicleState> vesicles;
-  std::vector<double> step_control;  ///< of adaptive steps; empty if they are equal
+  std::vector<double> step_control;    ///< of adaptive steps; empty if they are equal
+  std::shared_ptr<const Start> start;  ///< none where vesicles have started as the scene says
 };
 
 struct ImmersedVesicle;
@@ -114,6 +122,15 @@ class Simulation {
   Phases phases() const;
   PartEntries part_entries() const;
 
+  /// Starts anew from membranes, of which there must be one for each vesicle, in the place of the scene's, and from a velocity, whose
+  /// divergence-free part is taken, and a pressure on its grid. For a simulation that has taken no step; see start_from().
+  /// \throws std::invalid_argument when sizes differ or a number is not finite, std::domain_error for a membrane without a geometry,
+  /// SimulationStopped for a marker at a wall
+  void start(std::shared_ptr<const Start> start, const fluid::FaceVector& velocity,
+             const fluid::Field<fluid::Cell>& pressure);
+  /// The run it has started from, or nullptr.
+  const Start* started_from() const { return start_.get(); }
+
   SimulationState state() const;
   /// \throws std::invalid_argument when the state belongs to another grid or mesh
   void restore(const SimulationState& state);
@@ -121,6 +138,7 @@ class Simulation {
  private:
   Simulation(const Scene& scene, const Flow& flow, FlowType type);
 
+  void make_vesicles();
   void take_step(double dt);
   void take_adaptive_step();
   bool try_step(double dt, std::string& failure);
@@ -142,6 +160,7 @@ class Simulation {
   Scene scene_;
   std::unique_ptr<ViscosityContrast> contrast_;  // where there is one
   fluid::NavierStokes fluid_;
+  std::shared_ptr<const Start> start_;
   std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
   std::unique_ptr<ExternalForces> external_forces_;
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none

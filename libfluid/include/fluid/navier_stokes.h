@@ -105,6 +105,11 @@ class NavierStokes {
   // std::invalid_argument, with the place, if a sample is not finite.
   void set_velocity(const std::function<Vector3(const Vector3& position)>& velocity);
 
+  // The same from fields on this grid, such as resample() gives of another, with a pressure to begin with, of which the mean is
+  // removed. Walls and ghosts are not read. Throws std::invalid_argument, and changes nothing, if a grid differs or a number is not
+  // finite.
+  void start_from(const FaceVector& velocity, const Field<Cell>& pressure);
+
   // Continues from a state: the velocities and pressure at the points inside (faces on walls and ghosts are
   // set from the walls). Fields of a run give, bit for bit, the continuation of that run. Throws
   // std::invalid_argument, and changes nothing, if a grid differs, a number is not finite or the clock is impossible.

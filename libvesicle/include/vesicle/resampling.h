@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vesicle/membrane.h"
 #include "vesicle/spherical_harmonics.h"
 
 namespace vesiflow::vesicle {
@@ -21,5 +22,11 @@ class Resampling {
   SphericalHarmonics analysis_, synthesis_;
   mutable Coefficients coefficients_;
 };
+
+/// A membrane's state on another mesh of the same surface. The strains ln(dA/dA0) and ln(dA/dA(0)) and the fields stay with the
+/// material; target areas and initial areas keep their totals and the initial volume is kept, so that errors of area and volume
+/// are against the same values as before. As it is if both grids are the same.
+/// @throws std::domain_error if the surface has no geometry on the new mesh (Surface::update).
+MembraneState resample(const MembraneState& state, const SphereGrid& from, const SphereGrid& to);
 
 }  // namespace vesiflow::vesicle

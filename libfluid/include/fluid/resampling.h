@@ -1,0 +1,13 @@
+// Fields from one grid to another.
+#pragma once
+
+#include "fluid/field.h"
+
+namespace vesiflow::fluid {
+
+// Sets the points of `to` that lie in the box of `from` by trilinear interpolation, exact for linear fields. Others are left as
+// they are. Reads the ghosts of `from`, writes none.
+void resample(const Field<Cell>& from, Field<Cell>& to);
+void resample(const FaceVector& from, FaceVector& to);
+
+}  // namespace vesiflow::fluid
