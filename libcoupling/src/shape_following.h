@@ -76,10 +76,14 @@ class ShapeFollowing : public MembraneMotion {
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
   void solve_implicit_terms(double dt);
-  vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
+  double largest_held_strain() const;
+  bool can_keep_area(double dt, const vesicle::Membrane& membrane) const;
   void keep_rates(const vesicle::Surface& surface, vesicle::VectorField& velocity);
   void keep_displacement(const vesicle::Surface& surface, vesicle::VectorField& displacement);
+  bool try_to_keep_area(const vesicle::Surface& surface, vesicle::VectorField& displacement);
   void conserve(const vesicle::Surface& surface);
+  void tie_strain_rate(const vesicle::Surface& surface);
+  void tie_strain(vesicle::Membrane& membrane);
   void estimate_error(double ratio);
   void finish(double dt, vesicle::Membrane& membrane);
   void keep_corrections();
@@ -92,6 +96,8 @@ class ShapeFollowing : public MembraneMotion {
   double remembered_viscosity_ = 0.0;             // of the explicit one, what the fluid is told of
   double lagging_viscosity_ = 0.0;                // what the explicit term adds to the overestimate
   bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
+  double strain_rate_ = 0.0;  // of the undisturbed flow, where it is known
+  double excess_area_ = 0.0;  // of the area to be kept: over that of the sphere of the same volume, less 1
   MirrorSymmetry symmetry_;
   vesicle::SphericalHarmonics harmonics_;
   MembraneResponse response_;
@@ -121,11 +127,11 @@ class ShapeFollowing : public MembraneMotion {
   State predicted_, rates_, theta_, phi_;
   double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0,
          acceleration_ = 0.0;  // a0, a1, Re a0/dt
-  vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, owed_force_;
+  vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, uncorrected_, owed_force_;
   vesicle::ScalarField strain_, divergence_, normal_velocity_, slip_theta_, slip_phi_;
   vesicle::Coefficients velocity_coefficients_, coefficients_, increment_coefficients_, predicted_coefficients_;
   Gmres::Vector inverse_diagonal_, right_side_, solution_;
-  bool owes_ = false;
+  bool owes_ = false, keeps_area_now_ = false;
   mutable std::vector<double> history_;
 };
 
