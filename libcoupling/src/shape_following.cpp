@@ -88,6 +88,7 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   correction_ = older_correction_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
   correction_.set_zero();
   older_correction_.set_zero();
+  set_units(scene.vesicles[number].radius);
   solved_viscosity_ = 0.5 * (1.0 + scene.viscosity_ratio(number));
   explicit_viscosity_ = 0.0;
   if (scene.has_viscosity_contrast() && has_inertia_ &&
@@ -112,6 +113,18 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
   if (keeps_area_) conserved.area = membrane.initial_area();
   volume_and_area_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
+}
+
+// Positions and strains are solved for together, and what is small of one must not depend on the unit of the other.
+void ShapeFollowing::set_units(double length) {
+  length_ = length;
+  for (int n = 0; n < harmonics_.degrees(); ++n)
+    for (int m = 0; m <= n; ++m)
+      for (int f = 0; f < fields(); ++f) {
+        const double unit = f < 3 ? length : 1.0;
+        coefficients_(f, n, m) = {unit, unit};
+      }
+  units_ = as_vector(coefficients_);
 }
 
 // Takes the membrane's state. Markers that have no history with this motion are new to it: what their shape has in degrees that it does
@@ -253,8 +266,9 @@ void ShapeFollowing::solve_implicit_terms(double dt) {
       }
   }
   inverse_diagonal_ = as_vector(coefficients_);
-  right_side_.array() *= inverse_diagonal_.array();
+  right_side_.array() *= inverse_diagonal_.array() / units_.array();
   const Gmres::Report report = gmres_.solve(operator_, right_side_, gmres_tolerance, solution_);
+  solution_.array() *= units_.array();
   if (!(report.residual < worst_residual))
     throw std::domain_error(
         "the implicit slip of the mesh was not found: the membrane is swept along by too many of its waves in a "
