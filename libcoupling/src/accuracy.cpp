@@ -8,6 +8,7 @@
 
 #include "coupling/errors.h"
 #include "coupling/flow.h"
+#include "vesicle_scales.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -31,10 +32,10 @@ double smallest_radius(const Scene& scene) {
   return radius;
 }
 
-double largest_radius(const Scene& scene) {
-  double radius = 0.0;
-  for (const VesicleScene& vesicle : scene.vesicles) radius = std::max(radius, vesicle.radius);
-  return radius;
+// With the radius of the vesicle as the unit of length.
+double vesicle_capillary_number(const Scene& scene, std::size_t i) {
+  const double radius = scene.vesicles[i].radius;
+  return scene.capillary_number(i) * (radius * radius * radius);
 }
 
 // An even number of cells with no prime factor above 5, which the solvers are fast for.
@@ -53,7 +54,8 @@ int even_and_smooth(double at_least) {
 double fastest_rate(const Scene& scene) {
   const Flow flow = flow_of(scene);
   double rate = std::max(flow.greatest_gradient, flow.angular_frequency);
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) rate = std::max(rate, 1.0 / scene.capillary_number(i));
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    rate = std::max(rate, 1.0 / vesicle_capillary_number(scene, i));
   return rate;
 }
 
@@ -71,7 +73,7 @@ void apply_accuracy(Scene& scene) {
   const double latitudes = std::min(256.0, s.latitudes_per_cells * largest_radius(scene) / spacing);
   scene.mesh.latitudes = 8 * static_cast<int>(std::ceil(latitudes / 8.0 - 1e-9));
   if (scene.flow.type != FlowType::custom) scene.time.step = 1.0 / std::ceil(s.steps_per_rate * fastest_rate(scene));
-  scene.membrane.sigma0 = stiff;
+  scene.membrane.sigma0 = stiff * largest_radius(scene);
   scene.time.markers = "shape_following";
   scene.coupling.thickness_correction = true;
 }
@@ -98,11 +100,12 @@ void check_accuracy(const Scene& scene, const std::string& name) {
         fmt::format("{}: no settings are known for a viscosity ratio that is not 1: the correction of the thickness "
                     "knows nothing of the layer in which the viscosity changes; leave it out, and compare two grids",
                     key));
-  if (scene.fluid.inertia != fluid::Inertia::none && scene.fluid.reynolds_number > largest_reynolds_number)
+  const double radius = largest_radius(scene);
+  if (vesicle_reynolds_number(scene) > largest_reynolds_number)
     throw SceneError(
         fmt::format("{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}, or "
                     "fluid.inertia = \"none\"; leave method.accuracy out, and compare two grids",
-                    key, scene.fluid.reynolds_number, largest_reynolds_number));
+                    key, scene.fluid.reynolds_number, largest_reynolds_number / (radius * radius)));
 }
 
 namespace {
@@ -123,7 +126,7 @@ std::string accuracy_doubts(const Scene& scene) {
       doubts.push_back(fmt::format("fewer than {} latitudes", asked.mesh.latitudes));
     if (v.reduced_volume && *v.reduced_volume < smallest_reduced_volume)
       doubts.push_back(fmt::format("a reduced volume below {:.2g}, which was not verified", smallest_reduced_volume));
-    if (scene.capillary_number(i) < smallest_capillary_number)
+    if (vesicle_capillary_number(scene, i) < smallest_capillary_number)
       doubts.push_back(fmt::format("a capillary number below {:g}, which was not verified", smallest_capillary_number));
     if (!doubts.empty()) break;
   }

@@ -8,12 +8,13 @@
 
 #include "coupling/flow.h"
 #include "recommended_region.h"
+#include "vesicle_scales.h"
 
 namespace vesiflow::coupling {
 namespace {
 
 constexpr int most_noisy_steps = 8;
-constexpr double smallest_speed = 0.1;  // in r/t_c, below which noise is harmless
+constexpr double smallest_speed = 0.1;  // in radii per unit of time, below which noise is harmless
 constexpr long fluid_interval = 8;
 constexpr double largest_overshoot = 3.0;
 
@@ -37,13 +38,14 @@ Peak peak_of(const fluid::Field<Centring>& component) {
 
 BlowUpGuard::BlowUpGuard(const Scene& scene, double wall_speed)
     : limit_(scene.limits.velocity_noise),
-      known_speed_(std::max(wall_speed, smallest_speed)),
+      harmless_speed_(smallest_speed * largest_radius(scene)),
+      known_speed_(std::max(wall_speed, harmless_speed_)),
       too_noisy_(scene.vesicles.size(), 0) {}
 
 std::string BlowUpGuard::look_at(std::size_t vesicle, const VelocityNoise& noise,
                                  const vesicle::VectorField& positions) {
   known_speed_ = std::max(known_speed_, noise.greatest_speed());
-  const double share = noise.value() / std::max(noise.greatest_speed(), smallest_speed);
+  const double share = noise.value() / std::max(noise.greatest_speed(), harmless_speed_);
   int& count = too_noisy_[vesicle];
   count = share > limit_ ? count + 1 : 0;
   if (count < most_noisy_steps) return {};

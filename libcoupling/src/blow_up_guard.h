@@ -33,6 +33,7 @@ class BlowUpGuard {
 
  private:
   double limit_;
+  double harmless_speed_;       // below which noise is
   double known_speed_;          // greatest of walls and membranes
   std::vector<int> too_noisy_;  // steps on end, for each membrane
 };

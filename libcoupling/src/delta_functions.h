@@ -8,13 +8,15 @@
 
 #include "coupling/delta_kernel.h"
 
-/// The functions phi of one variable of which delta functions are made. Each has a `width` and the weights(t) of
-/// delta_weights() in coupling/delta_kernel.h; the value at a single distance follows from these.
+/// The functions phi of one variable of which delta functions are made. Each has a `width`, the weights(t) of delta_weights() in
+/// coupling/delta_kernel.h, from which the value at a single distance follows, and a `second_moment`, int r^2 phi(r) dr to six
+/// digits: the mean of sum_j w_j r_j^2 over t.
 namespace vesiflow::coupling {
 
 // The 3-point function in terms of the middle point's distance c = t - 1/2.
 struct ThreePointFunction {
   static constexpr int width = 3;
+  static constexpr double second_moment = 0.298467;
   static std::array<double, 3> weights(double t) {
     const double c = t - 0.5, root = std::sqrt(1.0 - 3.0 * c * c);
     return {(2.0 - 3.0 * c - root) / 6.0, (1.0 + root) / 3.0, (2.0 + 3.0 * c - root) / 6.0};
@@ -23,6 +25,7 @@ struct ThreePointFunction {
 
 struct FourPointFunction {
   static constexpr int width = 4;
+  static constexpr double second_moment = 0.523968;
   static std::array<double, 4> weights(double t) {
     const double root = std::sqrt(1.0 + 4.0 * t * (1.0 - t)), near = 3.0 - 2.0 * t, far = 1.0 + 2.0 * t;
     return {0.125 * (near - root), 0.125 * (near + root), 0.125 * (far + root), 0.125 * (far - root)};
@@ -32,6 +35,7 @@ struct FourPointFunction {
 // The 3-point function averaged over one cell, in the closed form of Yang et al.
 struct SmoothedFourPointFunction {
   static constexpr int width = 4;
+  static constexpr double second_moment = 0.3818;
   static std::array<double, 4> weights(double t) {
     const double s = std::sqrt(1.0 + 12.0 * t * (1.0 - t));
     const double a = angle(t, s);
@@ -119,6 +123,7 @@ struct SixPointFunction {
 template <int order>
 struct BSplineFunction {
   static constexpr int width = order;
+  static constexpr double second_moment = order / 12.0;  // 1/12 of each cell
   static std::array<double, order> weights(double t) {
     std::array<double, order> w{1.0};
     for (int m = 1; m < order; ++m) {

@@ -38,7 +38,7 @@ bool ImplicitMotion::predict(double dt, vesicle::Membrane& membrane) {
 void ImplicitMotion::find_scales(double dt) {
   const double mean_square = std::sqrt(4.0 * std::numbers::pi);
   const double position = 1.0 / (mean_square * radius_);
-  const double strain = (1.0 + 0.25 * dt * sigma0_) / mean_square;
+  const double strain = (1.0 + 0.25 * dt * sigma0_ / length_) / mean_square;
   for (int n = 0; n < harmonics_.degrees(); ++n)
     for (int m = 0; m <= n; ++m)
       for (int f = 0; f < fields(); ++f) {

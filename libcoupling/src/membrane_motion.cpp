@@ -17,14 +17,15 @@ namespace {
 // and target areas follow their slip.
 class MaterialMotion final : public MembraneMotion {
  public:
-  MaterialMotion(const Scene& scene, const vesicle::Membrane& membrane)
+  MaterialMotion(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane)
       : interpolates_in_time_(scene.time.fluid_velocity == FluidVelocity::interpolated),
         has_stages_(scene.time.markers == "arkode"),
         symmetry_(scene, membrane.positions()),
         positions_(membrane.positions()),
         displacement_(positions_),
-        integrator_(make_marker_integrator(scene.time.markers, static_cast<std::size_t>(positions_.size()),
-                                           {scene.time.relative_tolerance, scene.time.absolute_tolerance})) {
+        integrator_(make_marker_integrator(
+            scene.time.markers, static_cast<std::size_t>(positions_.size()),
+            {scene.time.relative_tolerance, scene.time.absolute_tolerance * scene.vesicles[vesicle].radius})) {
     if (scene.time.adaptive) error_.emplace(positions_.rows());
     filtered_velocity_ = [this](double fraction, std::span<const double> state, std::span<double> velocity) {
       evaluate(fraction, Eigen::Map<const vesicle::VectorField>(state.data(), positions_.rows(), 3));
@@ -112,7 +113,7 @@ std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::si
                                                      const vesicle::Membrane& membrane) {
   if (scene.time.markers == "shape_following") return std::make_unique<ShapeFollowing>(scene, vesicle, membrane);
   if (scene.time.markers == "implicit") return std::make_unique<ImplicitMotion>(scene, vesicle, membrane);
-  return std::make_unique<MaterialMotion>(scene, membrane);
+  return std::make_unique<MaterialMotion>(scene, vesicle, membrane);
 }
 
 }  // namespace vesiflow::coupling

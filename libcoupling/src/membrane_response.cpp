@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "delta_functions.h"
+
 namespace vesiflow::coupling {
 namespace {
 
@@ -14,8 +16,16 @@ constexpr int points = 200;  // of the quadrature in the angle atan(k_z / k): er
 
 }  // namespace
 
-MembraneResponse::MembraneResponse(int degrees, double radius, double spacing, double second_moment)
-    : radius_(radius), spacing_(spacing), second_moment_(second_moment), modes_(static_cast<std::size_t>(degrees)) {}
+MembraneResponse::SecondMoments MembraneResponse::second_moments(DeltaKernel kernel) {
+  return with_functions_of(kernel, [](auto functions) -> SecondMoments {
+    using Functions = decltype(functions);
+    const double across = Functions::Tangential::second_moment, excess = Functions::Normal::second_moment - across;
+    return {.along = across + 0.2 * excess, .normal = across + 0.6 * excess};
+  });
+}
+
+MembraneResponse::MembraneResponse(int degrees, double radius, double spacing, const SecondMoments& moments)
+    : radius_(radius), spacing_(spacing), moments_(moments), modes_(static_cast<std::size_t>(degrees)) {}
 
 void MembraneResponse::update(double a, double mu) {
   if (a == a_ && mu == mu_) return;
@@ -34,11 +44,12 @@ void MembraneResponse::update(double a, double mu) {
       const double angle = (i + 0.5) * std::numbers::pi / (2 * points);
       const double kz = k * std::tan(angle), qq = k * k + kz * kz;
       const double across = kz * spacing_;
-      const double weight =
-          std::exp(-second_moment_ * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
+      const auto weight = [&](double moment) {
+        return std::exp(-moment * across * across - in_plane_decay * in_plane * in_plane) / (2.0 * points * k);
+      };
       const double inverse = 1.0 / (a + mu * qq);
-      add(mode.along, weight * kz * kz, qq, inverse);
-      add(mode.normal, weight * k * k, qq, inverse);
+      add(mode.along, weight(moments_.along) * kz * kz, qq, inverse);
+      add(mode.normal, weight(moments_.normal) * k * k, qq, inverse);
     }
     const double owed = std::exp((owed_decay - in_plane_decay) * in_plane * in_plane);
     for (Mode::Answer* answer : {&mode.along, &mode.normal}) {

@@ -320,7 +320,8 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(scene.membrane.volume == vesicle::VolumeControl::projection, "volume projection",
             "exact, of the marker velocity and its step", "membrane.volume is not \"projection\"");
   plan.part((follows && tension) || scene.membrane.area == vesicle::AreaControl::projection, "area projection",
-            follows ? "exact, of each step, but for spheres" : "exact, of the marker velocity and its step",
+            follows ? "exact, of each step; nearly spherical: within the strain"
+                    : "exact, of the marker velocity and its step",
             "membrane.area is not \"projection\"");
   plan.part(true, "markers", describe_markers(scene), "");
   plan.part(follows && tension, "strain field",

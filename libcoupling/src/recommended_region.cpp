@@ -12,20 +12,21 @@
 #include "available_memory.h"
 #include "coupling/flow.h"
 #include "memory_plan.h"
+#include "vesicle_scales.h"
 
 namespace vesiflow::coupling {
 
 double stable_bending_step(const Scene& scene) {
-  double stiffest = scene.membrane.capillary_number;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, scene.capillary_number(i));
+  double stiffest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    stiffest = std::min(stiffest, scene.capillary_number(i) * std::pow(scene.vesicles[i].radius, 3));
   return 0.5 * stiffest;
 }
 
 double quiet_tension_number(const Scene& scene) {
   constexpr double least_reynolds_number = 0.5;
-  const double re = scene.fluid.reynolds_number;
-  if (scene.time.markers != "shape_following" || scene.fluid.inertia == fluid::Inertia::none ||
-      re < least_reynolds_number)
+  const double re = vesicle_reynolds_number(scene);
+  if (scene.time.markers != "shape_following" || re < least_reynolds_number)
     return std::numeric_limits<double>::infinity();
   return re <= 1.0 ? 112.0 : 80.0;
 }
@@ -83,7 +84,7 @@ std::string bending_warning(const Scene& scene) {
 
 std::string inertia_warning(const Scene& scene) {
   constexpr double largest_reynolds_number = 10.0;
-  if (scene.fluid.reynolds_number <= largest_reynolds_number) return "";
+  if (vesicle_reynolds_number(scene) <= largest_reynolds_number) return "";
   return "  <- WARNING: fluid.reynolds_number above 10 has been compared with nothing";
 }
 

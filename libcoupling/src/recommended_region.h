@@ -10,7 +10,7 @@ namespace vesiflow::coupling {
 /// ... what to do"), else nothing.
 
 /// The longest step that follows bending: a shape far from rest relaxes at a rate of about 1/Ca (docs/stability.md, reduced volume and capillary
-/// number). Of the stiffest vesicle.
+/// number). Of the stiffest vesicle; Ca r^3 is its own number where its radius is not 1.
 double stable_bending_step(const Scene& scene);
 
 /// The largest g = dt sigma0/(4 h) at which shape following is quiet where inertia counts (docs/time_integration.md, shape_following); infinite

@@ -7,6 +7,7 @@
 
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
+#include "vesicle_scales.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -162,8 +163,9 @@ std::vector<std::string> RunQuality::warnings() const {
              "the explicit tension is beyond its stability: take a smaller time.step");
   warn_above(numbers.convection_step_ratio, 1.0, "time.step over the one at which the explicit convection is stable",
              "take a smaller time.step");
-  warn_above(scene_.fluid.inertia == fluid::Inertia::none ? 0.0 : scene_.fluid.reynolds_number, largest_reynolds_number,
-             "fluid.reynolds_number", "more than has been compared with anything");
+  warn_above(vesicle_reynolds_number(scene_), largest_reynolds_number,
+             "fluid.reynolds_number times the square of the largest radius",
+             "more than has been compared with anything");
   const auto warn_below = [&](double gap, const char* what) {
     if (gap < least_resolved_gap)
       all.push_back(

@@ -13,6 +13,7 @@
 #include "coupling/marker_transfer.h"
 #include "initial_shape.h"
 #include "mirror_symmetry.h"
+#include "vesicle_scales.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -148,11 +149,12 @@ void check_thickness(const Scene& scene, const std::string& name) {
   constexpr double largest = 3.0, largest_reynolds_number = 0.1;
   if (!scene.coupling.thickness_correction) return;
   // It is that of Stokes flow: seen to be stable to Re = 0.1, and to blow up at Re = 1.
-  if (scene.fluid.inertia != fluid::Inertia::none && scene.fluid.reynolds_number > largest_reynolds_number)
+  const double radius = largest_radius(scene);
+  if (vesicle_reynolds_number(scene) > largest_reynolds_number)
     throw SceneError(
         fmt::format("{}: coupling.thickness_correction = true: is for slow flow, fluid.reynolds_number <= {:g} or "
                     "fluid.inertia = \"none\", and this scene has {:g}",
-                    name, largest_reynolds_number, scene.fluid.reynolds_number));
+                    name, largest_reynolds_number / (radius * radius), scene.fluid.reynolds_number));
   if (scene.follows_shape()) return;
   if (scene.tension_number() > largest)
     throw SceneError(fmt::format(

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "coupling/flow.h"
 #include "vesicle/shapes.h"
 
 namespace vesiflow::coupling {
@@ -16,16 +17,10 @@ using vesicle::VectorField;
 
 // Directions of the conserving displacements; with 16 degrees, what they add to the shape feeds on itself.
 constexpr int smooth_degrees = 5;
-// Below this share of varying curvature a vesicle is a sphere to the conservation of area.
-constexpr double smallest_independence = 1e-3;
-// Nor can the area of a sphere be kept once it is one no more: relative area beyond that of the sphere of the same volume.
-constexpr double smallest_excess_area = 1e-3;
 // The highest degree decays at this many times the rate at which the membrane is swept along, degree n by (n/p)^8 of it: waves
 // near the resolution of the grid, which the fluid hardly feels, would otherwise grow. With degrees up to k h = 0.95 pi and 8 here they
 // grew at 128^3 by a factor 2 in unit time, from the tips (validation/integrators.md).
 constexpr double damping = 16.0;
-// Across the membrane; a correction of its thickness makes the answer that of a thin one.
-constexpr double smoothed4_second_moment = 0.3818;
 constexpr double gmres_tolerance = 1e-4, worst_residual = 1e-2;
 // Z over the rates of MembraneResponse, without inertia and where inertia dominates the response (seen by trial: 1.5 is unstable there at
 // Re = 1). With the correction of the thickness the first is multiplied by the square of the mesh's greatest compression, as waves of a
@@ -55,6 +50,12 @@ int grid_degrees(const Scene& scene, double radius) {
   return static_cast<int>(largest_kh * radius / scene.spacing());
 }
 
+// A correction of the thickness makes the answer that of a thin membrane.
+MembraneResponse::SecondMoments thickness(const Scene& scene) {
+  if (scene.coupling.thickness_correction) return {};
+  return MembraneResponse::second_moments(scene.coupling.kernel);
+}
+
 }  // namespace
 
 Eigen::Map<Eigen::VectorXd> ShapeFollowing::as_vector(Coefficients& c) {
@@ -79,19 +80,20 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
       symmetry_(scene, membrane.positions()),
       harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
       response_(std::max(harmonics_.degrees(), grid_degrees(scene, radius_)), radius_, scene.finest_spacing(),
-                scene.coupling.thickness_correction ? 0.0 : smoothed4_second_moment),
+                thickness(scene)),
       operator_([this](const Gmres::Vector& x, Gmres::Vector& result) { apply_operator(x, result); }),
       stiffness_(static_cast<std::size_t>(harmonics_.degrees())) {
   const Eigen::Index markers = membrane.positions().rows();
   for (State* field : {&state_, &increment_, &predicted_, &rates_, &theta_, &phi_})
     *field = State::Zero(markers, fields());
   for (VectorField* field :
-       {&positions_, &velocity_, &mesh_velocity_, &vectors_, &owed_force_, &curvature_of_path_, &bend_})
+       {&positions_, &velocity_, &mesh_velocity_, &vectors_, &uncorrected_, &owed_force_, &curvature_of_path_, &bend_})
     *field = VectorField::Zero(markers, 3);
   coefficients_.resize(harmonics_.degrees(), fields());
   correction_ = older_correction_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
   correction_.set_zero();
   older_correction_.set_zero();
+  set_units(scene.vesicles[number].radius);
   solved_viscosity_ = 0.5 * (1.0 + scene.viscosity_ratio(number));
   explicit_viscosity_ = 0.0;
   if (scene.has_viscosity_contrast() && has_inertia_ &&
@@ -109,13 +111,25 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   }
   vesicle::Conserved conserved;
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
-  const double excess =
-      1.0 / std::cbrt(std::pow(vesicle::reduced_volume(membrane.initial_area(), membrane.initial_volume()), 2)) - 1.0;
-  const bool wants_area = has_tension() || scene.membrane.area == vesicle::AreaControl::projection;
-  keeps_area_ = wants_area && excess > smallest_excess_area;
+  if (scene.flow.type != FlowType::custom) strain_rate_ = flow_of(scene).greatest_gradient;
+  const double v = vesicle::reduced_volume(membrane.initial_area(), membrane.initial_volume());
+  excess_area_ = std::max(0.0, 1.0 / std::cbrt(v * v) - 1.0);
+  keeps_area_ = has_tension() || scene.membrane.area == vesicle::AreaControl::projection;
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
   if (keeps_area_) conserved.area = membrane.initial_area();
   volume_and_area_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
+}
+
+// Positions and strains are solved for together, and what is small of one must not depend on the unit of the other.
+void ShapeFollowing::set_units(double length) {
+  length_ = length;
+  for (int n = 0; n < harmonics_.degrees(); ++n)
+    for (int m = 0; m <= n; ++m)
+      for (int f = 0; f < fields(); ++f) {
+        const double unit = f < 3 ? length : 1.0;
+        coefficients_(f, n, m) = {unit, unit};
+      }
+  units_ = as_vector(coefficients_);
 }
 
 // Takes the membrane's state. Markers that have no history with this motion are new to it: what their shape has in degrees that it does
@@ -129,6 +143,7 @@ void ShapeFollowing::start(vesicle::Membrane& membrane) {
     harmonics_.analysis(vectors_, velocity_coefficients_);
     harmonics_.synthesis(velocity_coefficients_, vectors_);
     vectors_ -= membrane.positions();
+    keeps_area_now_ = keeps_area_;
     if (keeps_something()) keep_displacement(surface, vectors_);
     vectors_ += membrane.positions();
   }
@@ -149,6 +164,7 @@ bool ShapeFollowing::predict(double dt, vesicle::Membrane& membrane) {
   strain_ = predicted_.col(fields() - 1);
   if (!has_tension()) strain_.setZero();
   membrane.move_to(positions_, strain_);
+  keeps_area_now_ = can_keep_area(dt, membrane);
   find_owed_force(dt, membrane.surface());
   return true;
 }
@@ -177,6 +193,7 @@ void ShapeFollowing::finish(double dt, vesicle::Membrane& membrane) {
   positions_ = state_.leftCols<3>();
   if (has_tension()) strain_ = state_.col(3);
   membrane.move_to(positions_, strain_);
+  if (has_tension() && !keeps_area_now_) tie_strain(membrane);
 }
 
 // (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh. Volume and area are kept by the rates already:
@@ -192,6 +209,7 @@ void ShapeFollowing::find_rates(const Surface& surface) {
   surface.divergence(velocity_, divergence_);
   surface.gradient(strain_, vectors_);
   rates_.col(3) = divergence_ - ((velocity_ - mesh_velocity_) * vectors_).rowwise().sum();
+  if (!keeps_area_now_) tie_strain_rate(surface);
 }
 
 // Per displacement.
@@ -271,8 +289,9 @@ void ShapeFollowing::solve_implicit_terms(double dt) {
       }
   }
   inverse_diagonal_ = as_vector(coefficients_);
-  right_side_.array() *= inverse_diagonal_.array();
+  right_side_.array() *= inverse_diagonal_.array() / units_.array();
   const Gmres::Report report = gmres_.solve(operator_, right_side_, gmres_tolerance, solution_);
+  solution_.array() *= units_.array();
   if (!(report.residual < worst_residual))
     throw std::domain_error(
         "the implicit slip of the mesh was not found: the membrane is swept along by too many of its waves in a "
@@ -288,30 +307,6 @@ void ShapeFollowing::apply_operator(const Gmres::Vector& x, Gmres::Vector& resul
   result = as_vector(coefficients_);
   result.array() *= inverse_diagonal_.array();
   result += x;
-}
-
-// Of volume and area, or near a sphere of the volume alone.
-vesicle::ConservationProjection& ShapeFollowing::conservation(const Surface& surface) {
-  const bool both = keeps_area_ && vesicle::ConservationProjection::independence(surface) > smallest_independence;
-  return both ? *volume_and_area_ : *volume_;
-}
-
-void ShapeFollowing::keep_rates(const Surface& surface, VectorField& velocity) {
-  ++entries_.conservation;
-  conservation(surface).remove_rates(surface, velocity);
-}
-
-void ShapeFollowing::keep_displacement(const Surface& surface, VectorField& displacement) {
-  ++entries_.conservation;
-  conservation(surface).correct_displacement(surface, displacement);
-}
-
-// Replaces the increment of the positions by one that ends at the right volume and area.
-void ShapeFollowing::conserve(const Surface& surface) {
-  if (!keeps_something()) return;
-  vectors_ = state_.leftCols<3>() + increment_.leftCols<3>() - surface.positions();
-  keep_displacement(surface, vectors_);
-  increment_.leftCols<3>() = vectors_ + surface.positions() - state_.leftCols<3>();
 }
 
 // That of BDF2 is 2/9 of dt^3 d^3X/dt^3, the third difference of the path; `theta_` holds its second difference.

@@ -33,9 +33,18 @@ namespace vesiflow::coupling {
 ///
 /// Area and volume are exact after each step: their rates are taken out of W (ConservationProjection::remove_rates; without it the
 /// correction that follows, of which Z does not know, makes the scheme first order), and the displacement is corrected along smooth
-/// directions (correct_displacement). s is then the Lagrange multiplier of its own equation. Near spheres, where both cannot be kept,
-/// the volume is: below an excess area of 1e-3 of the sphere's, or where H varies by less than 3 %. Degrees kept: those the fluid's
-/// grid resolves, k h < 0.7 pi, and n < 2N/3; the highest are damped a little (their waves would grow on the slip).
+/// directions (correct_displacement). s is then the Lagrange multiplier of its own equation.
+///
+/// Near spheres that ends. With the mean strain m, int exp(-s) dA = A exp(-m), all of m that is not ln(A/A0) has been taken off the area by
+/// projections. A shape of excess area e (over the sphere's, less 1) can give no more than e, and deviates from a sphere by f, e = 2 f^2 (root mean
+/// square, in radii); the tension that holds it in a flow grows like 1/f. So the area is kept
+///   - while |m| <= 4 e. Beyond, m = ln(A/A0) + 4 e: the membrane is elastic there, and tends to the elastic sphere, m = ln(A/A0), as e does to 0.
+///     There the tension is also soft enough for its mean to be explicit, as a uniform tension acts on the deviation alone;
+///   - unless a step of the undisturbed flow moves a sphere by more than f, or the correction would be larger than f.
+/// Where the area is not kept the volume is, and a constant is added to ds/dt and to s, so that m and the area stay together: what the
+/// membrane leaks, the correction of the volume and the errors of steps are in div U, but not in the area. An area is never farther from A0
+/// than some local one. Degrees kept: those the fluid's grid resolves, k h < 0.7 pi, and n < 2N/3; the highest are damped a little
+/// (their waves would grow on the slip).
 class ShapeFollowing : public MembraneMotion {
  public:
   ShapeFollowing(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane);
@@ -69,6 +78,7 @@ class ShapeFollowing : public MembraneMotion {
   int fields() const { return has_tension() ? 4 : 3; }
   double step_ratio(double dt) const { return previous_dt_ > 0.0 ? dt / previous_dt_ : 0.0; }
 
+  void set_units(double length);
   void start(vesicle::Membrane& membrane);
   void find_mesh_velocity(double dt, const vesicle::Surface& surface, const MarkerVelocities& velocities);
   void relax_mesh(double dt, const vesicle::Surface& surface);
@@ -79,10 +89,14 @@ class ShapeFollowing : public MembraneMotion {
   void find_stiffness(double dt, const vesicle::Surface& surface);
   void solve_increment(double dt);
   void solve_implicit_terms(double dt);
-  vesicle::ConservationProjection& conservation(const vesicle::Surface& surface);
+  double largest_held_strain() const;
+  bool can_keep_area(double dt, const vesicle::Membrane& membrane) const;
   void keep_rates(const vesicle::Surface& surface, vesicle::VectorField& velocity);
   void keep_displacement(const vesicle::Surface& surface, vesicle::VectorField& displacement);
+  bool try_to_keep_area(const vesicle::Surface& surface, vesicle::VectorField& displacement);
   void conserve(const vesicle::Surface& surface);
+  void tie_strain_rate(const vesicle::Surface& surface);
+  void tie_strain(vesicle::Membrane& membrane);
   void estimate_error(double ratio);
   void finish(double dt, vesicle::Membrane& membrane);
   void keep_corrections();
@@ -90,11 +104,14 @@ class ShapeFollowing : public MembraneMotion {
   void apply_operator(const Gmres::Vector& x, Gmres::Vector& result);
 
   double sigma0_, bending_, reynolds_number_, radius_;
+  double length_ = 1.0;  // effective radius of the scene, the unit of lengths where a tolerance needs one
   std::optional<double> overestimate_;  // Z over the rates of MembraneResponse, if not what a step with a lag needs
   double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
   double remembered_viscosity_ = 0.0;             // of the explicit one, what the fluid is told of
   double lagging_viscosity_ = 0.0;                // what the explicit term adds to the overestimate
   bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
+  double strain_rate_ = 0.0;  // of the undisturbed flow, where it is known
+  double excess_area_ = 0.0;  // of the area to be kept: over that of the sphere of the same volume, less 1
   MirrorSymmetry symmetry_;
   vesicle::SphericalHarmonics harmonics_;
   MembraneResponse response_;
@@ -124,11 +141,11 @@ class ShapeFollowing : public MembraneMotion {
   State predicted_, rates_, theta_, phi_;
   double largest_tension_ = 0.0, largest_speed_ = 0.0, leading_ = 1.0, last_ = 0.0,
          acceleration_ = 0.0;  // a0, a1, Re a0/dt
-  vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, owed_force_;
+  vesicle::VectorField positions_, velocity_, mesh_velocity_, vectors_, uncorrected_, owed_force_;
   vesicle::ScalarField strain_, divergence_, normal_velocity_, slip_theta_, slip_phi_;
   vesicle::Coefficients velocity_coefficients_, coefficients_, increment_coefficients_, predicted_coefficients_;
-  Gmres::Vector inverse_diagonal_, right_side_, solution_;
-  bool owes_ = false;
+  Gmres::Vector units_, inverse_diagonal_, right_side_, solution_;
+  bool owes_ = false, keeps_area_now_ = false;
   mutable std::vector<double> history_;
 };
 

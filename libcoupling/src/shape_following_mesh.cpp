@@ -17,6 +17,11 @@ using vesicle::VectorField;
 // 0.7 rates of 0.5 to 4 times the shear rate are alike in noise and steady state, and a third in a step is unstable at Ca = 30.
 constexpr double relaxation = 1.0, largest_share = 0.1;
 
+// The mesh turns at this many times the membrane's greatest speed over its radius at most. A shape that deviates by f from a sphere turns
+// at about 1/f of the rate of strain when its axes change: no material does, and a mesh that turns by an angle a in a step is off by a^2/2.
+// From 0.99 on shapes turn by less than 3 times (from 0.9 on by 1.1).
+constexpr double fastest_turning = 3.0;
+
 template <typename Factor>
 void scale_degrees(vesicle::Coefficients& c, Factor factor) {
   for (int n = 0; n < c.degrees(); ++n) {
@@ -48,8 +53,18 @@ void ShapeFollowing::find_mesh_velocity(double dt, const Surface& surface, const
   normal_velocity_ = (velocity_ * surface.normal()).rowwise().sum();
   const vesicle::RigidMotion rigid = vesicle::rigid_motion_of_shape(surface, normal_velocity_);
   const auto& v = rigid.velocity;
-  const auto& omega = rigid.angular_velocity;
   double largest_square = 0.0;
+  for (Eigen::Index m = 0; m < velocity_.rows(); ++m) {
+    double square = 0.0;
+    for (int i = 0; i < 3; ++i) square += (velocity_(m, i) - v(i)) * (velocity_(m, i) - v(i));
+    largest_square = std::max(largest_square, square);
+  }
+  largest_speed_ = std::sqrt(largest_square);
+  const double turning_speed = radius_ * rigid.angular_velocity.norm();
+  const double fastest = fastest_turning * largest_speed_;
+  const vesicle::Vector3 omega = turning_speed > fastest
+                                     ? vesicle::Vector3(fastest / turning_speed * rigid.angular_velocity)
+                                     : rigid.angular_velocity;
   for (Eigen::Index m = 0; m < mesh_velocity_.rows(); ++m) {
     std::array<double, 3> r, along;
     for (int i = 0; i < 3; ++i) r[i] = surface.positions()(m, i) - rigid.centre(i);
@@ -57,15 +72,10 @@ void ShapeFollowing::find_mesh_velocity(double dt, const Surface& surface, const
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       along[i] = v(i) + omega(j) * r[k] - omega(k) * r[j];
     }
-    double excess = normal_velocity_(m), square = 0.0;
+    double excess = normal_velocity_(m);
     for (int i = 0; i < 3; ++i) excess -= along[i] * surface.normal()(m, i);
-    for (int i = 0; i < 3; ++i) {
-      mesh_velocity_(m, i) = along[i] + excess * surface.normal()(m, i);
-      square += (velocity_(m, i) - v(i)) * (velocity_(m, i) - v(i));
-    }
-    largest_square = std::max(largest_square, square);
+    for (int i = 0; i < 3; ++i) mesh_velocity_(m, i) = along[i] + excess * surface.normal()(m, i);
   }
-  largest_speed_ = std::sqrt(largest_square);
   relax_mesh(dt, surface);
 }
 

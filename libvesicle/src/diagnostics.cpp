@@ -86,7 +86,8 @@ double tank_treading_frequency(const Surface& surface, const Vector3& centroid, 
   check_argument(centroid.allFinite(), "centroid", centroid.transpose(), "finite");
   check_markers(velocity, "velocity", surface.grid().size());
   check_finite(velocity, "a velocity");
-  constexpr double excluded_radius = 1e-3;
+  constexpr double excluded_share = 1e-3;
+  const double excluded_radius = excluded_share * std::sqrt(surface.area() / (4 * std::numbers::pi));
   const VectorField& x = surface.positions();
   const ScalarField& areas = surface.area_weight();
   const Vector3 mean = surface.integral(velocity) / surface.area();

@@ -15,9 +15,10 @@ namespace {
 
 constexpr int degrees = 24;
 constexpr double radius = 1.3;
+const MembraneResponse::SecondMoments smoothed = MembraneResponse::second_moments(DeltaKernel::smoothed_four_point);
 
 MembraneResponse response(double spacing, double a, double mu) {
-  MembraneResponse modes(degrees, radius, spacing);
+  MembraneResponse modes(degrees, radius, spacing, smoothed);
   modes.update(a, mu);
   return modes;
 }
@@ -101,7 +102,7 @@ TEST(MembraneResponse, IsThatOfTheFluidToASphere) {
   vesicle::SphericalHarmonics harmonics(latitudes / 2, mesh, 1);
   MarkerTransfer transfer(grid);
   transfer.update(positions);
-  MembraneResponse model(latitudes / 2, 1.0, spacing);
+  MembraneResponse model(latitudes / 2, 1.0, spacing, smoothed);
   for (const double reynolds_number : {1.0, 20.0}) {
     model.update(reynolds_number / dt, 1.0);
     for (const int n : {2, 5, 9})
@@ -172,8 +173,43 @@ TEST(MembraneResponse, QuadratureInTheAngleIsFineEnough) {
   }
 }
 
+/// int r^2 phi dr of what a component in a direction is spread with across a sheet, in the mean over sheets that are turned at random: of a
+/// force normal to it and of one along it. A component's function along itself is the normal one.
+TEST(MembraneResponse, SecondMomentsAreThoseOfTheKernel) {
+  const auto integral = [](DeltaKernel kernel, Direction direction) {
+    constexpr int points = 40000;
+    const double half = 0.5 * support_width(kernel, direction), step = 2 * half / points;
+    double sum = 0;
+    for (int i = 0; i < points; ++i) {
+      const double r = -half + (i + 0.5) * step;
+      sum += step * r * r * delta(kernel, r, direction);
+    }
+    return sum;
+  };
+  vesicle::Surface directions(8);  // exact for polynomials of degree 4
+  directions.update(vesicle::sphere(directions.grid()));
+  const vesicle::VectorField& normals = directions.normal();
+  const vesicle::ScalarField weights = directions.area_weight() / directions.area();
+  for (const DeltaKernel kernel : delta_kernels) {
+    const double along_itself = integral(kernel, Direction::normal), across = integral(kernel, Direction::tangential);
+    double normal = 0, along = 0;
+    for (Eigen::Index k = 0; k < normals.rows(); ++k) {
+      const vesicle::Vector3 n = normals.row(k).matrix().transpose();
+      const vesicle::Vector3 t = n.unitOrthogonal(), s = n.cross(t);
+      for (int i = 0; i < 3; ++i) {
+        const double moment = n(i) * n(i) * along_itself + (1 - n(i) * n(i)) * across;
+        normal += weights(k) * n(i) * n(i) * moment;
+        along += weights(k) * 0.5 * (t(i) * t(i) + s(i) * s(i)) * moment;
+      }
+    }
+    const MembraneResponse::SecondMoments found = MembraneResponse::second_moments(kernel);
+    EXPECT_NEAR(found.normal, normal, 1e-6) << name(kernel);
+    EXPECT_NEAR(found.along, along, 1e-6) << name(kernel);
+  }
+}
+
 TEST(MembraneResponse, IsUpdatedWhenAnythingChanges) {
-  MembraneResponse modes(degrees, radius, 0.2);
+  MembraneResponse modes(degrees, radius, 0.2, smoothed);
   for (const auto& [a, mu] : {std::pair{1.0, 1.0}, {1.0, 2.0}, {3.0, 2.0}, {0.0, 2.0}}) {
     modes.update(a, mu);
     const MembraneResponse fresh = response(0.2, a, mu);

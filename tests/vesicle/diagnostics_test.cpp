@@ -75,6 +75,20 @@ TEST(Diagnostics, RigidRotationGivesItsAngularVelocity) {
   }
 }
 
+TEST(Diagnostics, TheFrequencyDoesNotDependOnTheUnitOfLength) {
+  Surface surface(latitudes);
+  const VectorField x = prolate(surface.grid(), 0.9);
+  VectorField velocity = VectorField::Zero(x.rows(), 3);
+  velocity.col(0) = x.col(2);  // shear: the share of each marker counts
+  const auto frequency = [&](double scale) {
+    surface.update(scale * x);
+    return tank_treading_frequency(surface, Vector3::Zero(), scale * velocity);
+  };
+  const double one = frequency(1);
+  for (const double scale : {1e-3, 3e-6, 1e5}) EXPECT_NEAR(frequency(scale), one, 1e-13) << scale;
+  EXPECT_EQ(frequency(std::ldexp(1, -20)), one);
+}
+
 TEST(Diagnostics, SpectrumTailOfSmoothAndRoughShapes) {
   Surface surface(latitudes);
   surface.update(ellipsoid(surface.grid(), {1, 2, 4}));

@@ -147,6 +147,26 @@ TEST(Resolution, NeverAsksForFewerLatitudesThanDoNotSuffice) {
   }
 }
 
+/// Round-off of the positions grows like the degree to the power 5/2 in the curvature: from 128 latitudes on it is more than 1e-13 of it.
+TEST(Resolution, RoundOffIsNotAShape) {
+  for (const int latitudes : {128, 256}) {
+    Surface surface(latitudes);
+    const SphereGrid& grid = surface.grid();
+    const ScalarField noise = testing::smooth_scalar(grid, latitudes, 3);
+    for (const VectorField& x :
+         {sphere(grid), prolate(grid, 0.9999), ellipsoid(grid, {1, 1, 1.001}), prolate(grid, 0.95),
+          sphere(grid, {.centre = {30, 7, 0.3}}), VectorField(sphere(grid).colwise() * (1 + 1e-15 * noise))}) {
+      surface.update(x);
+      EXPECT_EQ(resolution_warning(resolution(surface)), "") << latitudes;
+    }
+    surface.update(sphere(grid).colwise() * (1 + 1e-6 * noise));
+    EXPECT_FALSE(resolution(surface).sufficient()) << latitudes;
+  }
+  Surface surface(128);
+  surface.update(ellipsoid(surface.grid(), {1, 1, 12}));
+  EXPECT_FALSE(resolution(surface).sufficient());
+}
+
 TEST(Resolution, DoesNotDependOnTheUnitOfLength) {
   Surface surface(24);
   const VectorField x = ellipsoid(surface.grid(), {1, 1, 2});

@@ -39,7 +39,7 @@ double excess_area(double area, double volume);
 double inclination_angle(const VolumeMoments& moments);
 
 /// Eq. (34): area average of |r x V| / |r|^2, with r from the centroid and V relative to the mean velocity of
-/// the membrane, both projected to the xz-plane; markers with |r| < 1e-3 are left out of both sums. NaN if
+/// the membrane, both projected to the xz-plane; markers with |r| < 1e-3 sqrt(A/4 pi) are left out of both sums. NaN if
 /// none is left. velocity: interpolated marker velocity, shape (markers, 3).
 /// @throws std::invalid_argument for a wrong size or a centroid that is not finite, std::domain_error if the velocity is not
 /// finite.
