@@ -2,18 +2,19 @@
 // what the solvers report. tools/plot_flow.py draws it.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
+#include "command_line.h"
 #include "fluid/navier_stokes.h"
 #include "fluid/operators.h"
-#include "passive_waiting.h"
+#include "output_files.h"
+#include "program.h"
+#include "streams.h"
 
 namespace {
 
@@ -26,13 +27,28 @@ struct Options {
   double reynolds_number = 1.0;
   double time_step = 1.0;
   double end = 1.0;
-  Inertia inertia = Inertia::none;
-  ViscousTreatment treatment = ViscousTreatment::extrapolated;
+  std::string inertia = "none";
+  std::string treatment = "extrapolated";
   std::string velocity_solver = "auto";
-  std::filesystem::path out = "out/flow_fields";
+  std::string out = "out/flow_fields";
+  bool json = false;
 };
 
 constexpr double half_width = 2.0;
+constexpr int least_cells = 4, most_cells = 512;
+
+const std::map<std::string, Inertia> inertias{
+    {"full", Inertia::full}, {"unsteady", Inertia::unsteady}, {"none", Inertia::none}};
+const std::map<std::string, ViscousTreatment> treatments{{"explicit", ViscousTreatment::explicit_},
+                                                         {"extrapolated", ViscousTreatment::extrapolated},
+                                                         {"implicit", ViscousTreatment::implicit}};
+
+template <class Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
 
 // 1 outside the unit sphere and the ratio inside, across a layer of about two cells.
 Viscosity ball(const Grid& grid, double ratio) {
@@ -55,8 +71,8 @@ NavierStokes make_flow(const Options& options) {
   FluidParameters parameters;
   parameters.reynolds_number = options.reynolds_number;
   parameters.viscosity = ball(grid, options.ratio);
-  parameters.viscous_treatment = options.treatment;
-  parameters.inertia = options.inertia;
+  parameters.viscous_treatment = treatments.at(options.treatment);
+  parameters.inertia = inertias.at(options.inertia);
   parameters.velocity_solver = solver(options.velocity_solver);
   const double frequency = options.frequency;
   const auto shear = [frequency](const Vector3& r, double t) {
@@ -93,12 +109,16 @@ int iterations(const NavierStokes& flow) {
 }
 
 // Takes the steps, and tells what happened.
-nlohmann::ordered_json run(const Options& options, NavierStokes& flow) {
+nlohmann::ordered_json take_steps(const Options& options, NavierStokes& flow) {
   const int steps = static_cast<int>(std::lround(options.end / options.time_step));
   const auto start = std::chrono::steady_clock::now();
   int first_iterations = 0;
   for (int n = 0; n < steps; ++n) {
-    flow.step(options.time_step);
+    try {
+      flow.step(options.time_step);
+    } catch (const std::runtime_error& error) {  // a solver that does not converge
+      throw Stopped(error.what());
+    }
     if (n == 0) first_iterations = iterations(flow);
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
@@ -114,76 +134,70 @@ nlohmann::ordered_json run(const Options& options, NavierStokes& flow) {
           {"divergence", max_divergence(flow.velocity())}};
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream stream(path);
-  stream << text << std::flush;
-  if (!stream) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
-}
-
-void declare(CLI::App& app, Options& options) {
-  const std::map<std::string, Inertia> inertia{
-      {"full", Inertia::full}, {"unsteady", Inertia::unsteady}, {"none", Inertia::none}};
-  const std::map<std::string, ViscousTreatment> treatment{{"explicit", ViscousTreatment::explicit_},
-                                                          {"extrapolated", ViscousTreatment::extrapolated},
-                                                          {"implicit", ViscousTreatment::implicit}};
-  app.add_option("--cells", options.cells, "along each edge of the box [-2, 2]^3; even")
-      ->check(CLI::Range(4, 512))
+void declare(CommandLine& command_line, Options& options) {
+  command_line.add_option("--cells", options.cells, "along each edge of the box [-2, 2]^3; even")
       ->capture_default_str();
-  app.add_option("--ratio", options.ratio, "viscosity of the ball of radius 1; 1 outside")->capture_default_str();
-  app.add_option("--frequency", options.frequency, "the walls move with z sin(frequency t) along x; 0: with z")
+  command_line.add_option("--ratio", options.ratio, "viscosity of the ball of radius 1; 1 outside")
       ->capture_default_str();
-  app.add_option("--reynolds", options.reynolds_number, "Reynolds number")->capture_default_str();
-  app.add_option("--inertia", options.inertia, "full, unsteady, none (the default: every step is a Stokes problem)")
-      ->transform(CLI::CheckedTransformer(inertia).description(""));
-  app.add_option("--treatment", options.treatment, "of the viscosity: explicit, extrapolated (default), implicit")
-      ->transform(CLI::CheckedTransformer(treatment).description(""));
-  app.add_option("--velocity-solver", options.velocity_solver, "auto, fft, pcg, cholmod")
-      ->check(CLI::IsMember({"auto", "fft", "pcg", "cholmod"}))
+  command_line
+      .add_option("--frequency", options.frequency, "the walls move with z sin(frequency t) along x; 0: with z")
       ->capture_default_str();
-  app.add_option("--time-step", options.time_step, "dt")->capture_default_str();
-  app.add_option("--time", options.end, "to which time, starting from rest; a multiple of the step")
+  command_line.add_option("--reynolds-number", options.reynolds_number, "Reynolds number")->capture_default_str();
+  command_line.add_choice("--inertia", options.inertia, names_of(inertias), "none: every step is a Stokes problem")
       ->capture_default_str();
-  app.add_option("--out", options.out, "folder")->capture_default_str();
+  command_line.add_choice("--treatment", options.treatment, names_of(treatments), "of the viscosity")
+      ->capture_default_str();
+  command_line
+      .add_choice("--velocity-solver", options.velocity_solver, {"auto", "fft", "pcg", "cholmod"}, "of the momentum")
+      ->capture_default_str();
+  command_line.add_option("--time-step", options.time_step, "dt")->capture_default_str();
+  command_line.add_option("--end", options.end, "to which time, starting from rest; a multiple of the step")
+      ->capture_default_str();
+  command_line.add_out(options.out, "the tables and a summary")->capture_default_str();
+  command_line.add_json(options.json);
 }
 
 void check(const Options& options) {
-  if (options.cells % 2 != 0) throw std::runtime_error(fmt::format("--cells {}: must be even", options.cells));
+  require(options.cells >= least_cells && options.cells <= most_cells, "--cells", options.cells,
+          fmt::format("from {} to {}", least_cells, most_cells));
+  require(options.cells % 2 == 0, "--cells", options.cells, "even");
+  require_positive("--ratio", options.ratio);
+  require_positive("--reynolds-number", options.reynolds_number);
+  require(std::isfinite(options.frequency), "--frequency", options.frequency, "finite");
+  require_positive("--time-step", options.time_step);
   const double steps = options.end / options.time_step;
-  if (!(steps >= 0.5 && steps <= 1e6) || std::abs(steps - std::round(steps)) > 1e-6 * steps) {
-    throw std::runtime_error(
-        fmt::format("--time {:g}: must be a positive multiple of the time step {:g}", options.end, options.time_step));
-  }
+  require(steps >= 0.5 && steps <= 1e6 && std::abs(steps - std::round(steps)) <= 1e-6 * steps, "--end", options.end,
+          fmt::format("a positive multiple of the time step {:g}", options.time_step));
+}
+
+std::string table(const nlohmann::ordered_json& summary) {
+  std::string text;
+  for (const auto& [name, value] : summary.items())
+    text += fmt::format("{:26} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
+  return text;
+}
+
+ExitCode run(int argc, char** argv) {
+  Options options;
+  CommandLine command_line(
+      "flow_fields",
+      "The flow around a viscous ball in shear: fields in the middle plane as CSV; draw with tools/plot_flow.py.");
+  declare(command_line, options);
+  if (!command_line.read(argc, argv)) return success;
+  check(options);
+  NavierStokes flow = make_flow(options);
+  const nlohmann::ordered_json summary = take_steps(options, flow);
+  const std::filesystem::path folder = options.out;
+  make_folder(folder);
+  write_text(folder / "plane.csv", middle_plane(flow));
+  write_text(folder / "summary.json", summary.dump(1) + "\n");
+  print_result(options.json ? summary.dump(1) + "\n" : table(summary));
+  if (!command_line.is_quiet()) say("tables in {}\n", folder.string());
+  return success;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  wait_passively(argv);
-  Options options;
-  CLI::App app{
-      "The flow around a viscous ball in shear: fields in the middle plane as CSV; draw with tools/plot_flow.py."};
-  declare(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    throw std::runtime_error(fmt::format("{} (--help lists the options)", error.what()));
-  }
-  check(options);
-  NavierStokes flow = make_flow(options);
-  const nlohmann::ordered_json summary = run(options, flow);
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error)
-    throw std::runtime_error(fmt::format("--out {}: cannot be made: {}", options.out.string(), error.message()));
-  write(options.out / "plane.csv", middle_plane(flow));
-  write(options.out / "summary.json", summary.dump(1) + "\n");
-  for (const auto& [name, value] : summary.items()) {
-    fmt::print("{:26} {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
-  }
-  fmt::print("tables in {}\n", options.out.string());
-} catch (const std::exception& error) {
-  fmt::print(stderr, "error: {}\n", error.what());
-  return 2;
+int main(int argc, char** argv) {
+  return run_program([&] { return run(argc, argv); });
 }

@@ -1,13 +1,15 @@
 // Every quantity of a surface at its markers, as a table for plotting: a look at a shape before it is simulated.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <numbers>
 
+#include "command_line.h"
+#include "output_files.h"
+#include "program.h"
+#include "streams.h"
 #include "vesicle/bending.h"
 #include "vesicle/diagnostics.h"
 #include "vesicle/mesh_quality.h"
@@ -27,8 +29,10 @@ struct Options {
   double reduced_volume = 0.9;
   std::vector<double> axes{1, 2, 4};
   int fit_degrees = 16;
-  std::filesystem::path out = "out/surface_fields";
+  std::string out = "out/surface_fields";
 };
+
+constexpr int least_latitudes = 4, most_latitudes = 512;
 
 VectorField markers(const Options& options, const SphereGrid& grid) {
   if (options.surface == "sphere") return sphere(grid);
@@ -38,11 +42,15 @@ VectorField markers(const Options& options, const SphereGrid& grid) {
   if (options.surface == "biconcave") return biconcave_disc(grid);
   const std::filesystem::path file = options.surface;
   if (std::error_code error; !std::filesystem::exists(file, error))
-    throw std::runtime_error(fmt::format(
+    throw CommandLineError(fmt::format(
         "surface = {}: neither a file nor one of sphere, prolate, oblate, ellipsoid, biconcave", options.surface));
-  if (is_triangle_mesh_name(file))
-    return shape_from_coefficients(grid, fit_star_shaped(read_triangle_mesh(file), options.fit_degrees).surface);
-  return shape_from_coefficients(grid, read_surface_coefficients(file));
+  try {
+    if (is_triangle_mesh_name(file))
+      return shape_from_coefficients(grid, fit_star_shaped(read_triangle_mesh(file), options.fit_degrees).surface);
+    return shape_from_coefficients(grid, read_surface_coefficients(file));
+  } catch (const std::runtime_error& error) {
+    throw CommandLineError(error.what());
+  }
 }
 
 /// Scalar columns with their names.
@@ -55,14 +63,12 @@ struct Table {
     for (int component = 0; component < 3; ++component)
       add(fmt::format("{}_{}", name, "xyz"[component]), ScalarField(values.col(component)));
   }
-  void write(const std::filesystem::path& path) const {
+  std::string text() const {
     std::string text = fmt::format("{}\n", fmt::join(names, ","));
     for (Eigen::Index k = 0; k < columns.front().size(); ++k)
       for (std::size_t c = 0; c < columns.size(); ++c)
         fmt::format_to(std::back_inserter(text), "{:.10g}{}", columns[c][k], c + 1 < columns.size() ? ',' : '\n');
-    std::ofstream stream(path);
-    stream << text << std::flush;
-    if (!stream) throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+    return text;
   }
   std::vector<std::string> names;
   std::vector<ScalarField> columns;
@@ -128,11 +134,12 @@ Table spectrum_table(const Surface& surface) {
   return table;
 }
 
-void print_summary(const Surface& surface) {
+std::string summary_of(const Surface& surface) {
+  std::string text;
   const VolumeMoments moments = volume_moments(surface);
   const MeshQuality quality = mesh_quality(surface);
   const Resolution how_fine = resolution(surface);
-  const auto line = [](const char* name, const std::string& value) { fmt::print("{:24} {}\n", name, value); };
+  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("{:24} {}\n", name, value); };
   const auto range = [](const ScalarField& f) { return fmt::format("{:.6g} to {:.6g}", f.minCoeff(), f.maxCoeff()); };
   line("area, volume", fmt::format("{:.8g}, {:.8g}", surface.area(), surface.volume()));
   line("reduced volume", fmt::format("{:.6f}", reduced_volume(surface.area(), surface.volume())));
@@ -147,42 +154,48 @@ void print_summary(const Surface& surface) {
   line("mesh", fmt::format("aspect ratio {:.3g}, area ratio {:.3g}", quality.aspect_ratio, quality.area_ratio));
   line("resolution", how_fine.sufficient() ? fmt::format("sufficient, {:.1e} of Lap H unresolved", how_fine.unresolved)
                                            : resolution_warning(how_fine));
+  return text;
+}
+
+const std::vector<std::string> shapes = {"sphere", "prolate", "oblate", "ellipsoid", "biconcave"};
+
+void declare(CommandLine& command_line, Options& options) {
+  command_line
+      .add_option("surface", options.surface,
+                  fmt::format("{}; or a file: coefficients, .obj or .off", fmt::join(shapes, ", ")))
+      ->type_name("FILE")
+      ->capture_default_str();
+  command_line.complete("surface", shapes);
+  command_line.add_option("--latitudes", options.latitudes, "N; 2 N^2 markers")->capture_default_str();
+  command_line.add_option("--reduced-volume", options.reduced_volume, "of a prolate or oblate")->capture_default_str();
+  command_line.add_option("--axes", options.axes, "proportions of an ellipsoid")->expected(3)->default_str("1 2 4");
+  command_line.add_option("--fit-degrees", options.fit_degrees, "degrees of the fit to a triangle mesh")
+      ->capture_default_str();
+  command_line.add_out(options.out, "the tables")->capture_default_str();
+}
+
+ExitCode run(int argc, char** argv) {
+  Options options;
+  CommandLine command_line(
+      "surface_fields",
+      "Writes every quantity of a surface at its markers as CSV, and its spectrum; draw with tools/plot_surface.py.");
+  declare(command_line, options);
+  if (!command_line.read(argc, argv)) return success;
+  require(options.latitudes >= least_latitudes && options.latitudes <= most_latitudes, "--latitudes", options.latitudes,
+          fmt::format("from {} to {}", least_latitudes, most_latitudes));
+  const std::filesystem::path folder = options.out;
+  Surface surface(options.latitudes);
+  surface.update(markers(options, surface.grid()), GeometryDetail::curvature);
+  make_folder(folder);
+  write_text(folder / "markers.csv", marker_table(surface).text());
+  write_text(folder / "spectrum.csv", spectrum_table(surface).text());
+  print_result(summary_of(surface));
+  if (!command_line.is_quiet()) say("tables in {}\n", folder.string());
+  return success;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) try {
-  Options options;
-  CLI::App app{
-      "Writes every quantity of a surface at its markers as CSV, and its spectrum; draw with tools/plot_surface.py."};
-  app.add_option("surface", options.surface,
-                 "sphere, prolate, oblate, ellipsoid, biconcave, or a file: coefficients, .obj or .off")
-      ->capture_default_str();
-  app.add_option("--latitudes", options.latitudes, "N; 2 N^2 markers")
-      ->check(CLI::Range(4, 512))
-      ->capture_default_str();
-  app.add_option("--reduced-volume", options.reduced_volume, "of a prolate or oblate")->capture_default_str();
-  app.add_option("--axes", options.axes, "proportions of an ellipsoid")->expected(3)->capture_default_str();
-  app.add_option("--fit-degrees", options.fit_degrees, "degrees of the fit to a triangle mesh")->capture_default_str();
-  app.add_option("--out", options.out, "folder")->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    throw std::runtime_error(fmt::format("{} (--help lists the options)", error.what()));
-  }
-  Surface surface(options.latitudes);
-  surface.update(markers(options, surface.grid()), GeometryDetail::curvature);
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error)
-    throw std::runtime_error(fmt::format("--out {}: cannot be made: {}", options.out.string(), error.message()));
-  marker_table(surface).write(options.out / "markers.csv");
-  spectrum_table(surface).write(options.out / "spectrum.csv");
-  print_summary(surface);
-  fmt::print("tables in {}\n", options.out.string());
-} catch (const std::exception& error) {
-  fmt::print(stderr, "error: {}\n", error.what());
-  return 2;
+int main(int argc, char** argv) {
+  return run_program([&] { return run(argc, argv); });
 }

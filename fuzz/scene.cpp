@@ -1,4 +1,4 @@
-// Scene files, with overrides in lines "--set key=value": each is refused by a SceneError of one readable line, or makes a
+// Scene files, with overrides in lines "--set key=value": each is refused by a SceneError that says why, or makes a
 // scene that can be written, read back as the same scene, and planned.
 
 #include <algorithm>

@@ -76,7 +76,7 @@ def draw_iterations(build, scratch, out):
     sizes, ratios = [16, 24, 32, 48, 64], {5: BLUE, 20: GREEN, 100: VERMILLION}
     cases = {
         "velocity of the implicit treatment: pcg+fft": dict(
-            inertia="full", reynolds=0.001, treatment="implicit", velocity_solver="pcg", time_step=0.01, time=0.01
+            inertia="full", reynolds_number=0.001, treatment="implicit", velocity_solver="pcg", time_step=0.01, end=0.01
         ),
         "Stokes: velocity and pressure together": dict(inertia="none"),
     }
@@ -129,7 +129,7 @@ def draw_order(build, out):
 
 def draw_treatments(build, scratch, out):
     """Walls that swing as sin 3t, ratio 20, Re = 1: errors at t = 1 of the velocity in the middle plane."""
-    options = dict(cells=24, inertia="full", reynolds=1, frequency=3, time=1)
+    options = dict(cells=24, inertia="full", reynolds_number=1, frequency=3, end=1)
     numbers = {"explicit": [8, 16, 32, 64, 128, 256], "extrapolated": [8, 16, 32, 64, 128, 256], "implicit": [8, 16, 32, 64]}
     shown = 32
     folder = scratch / "treatments"

@@ -132,7 +132,7 @@ def main():
     draw_accuracy(build, out)
     draw_redistribution(build, scratch, out)
     for branch, volumes in (("prolate", "0.6:1:0.02"), ("oblate", "0.52:1:0.02")):
-        run(build / "apps/equilibrium_shape", "--branch", branch, "--reduced-volume", volumes, "--output", scratch / "eq")
+        run(build / "apps/equilibrium_shape", "--branch", branch, "--reduced-volume", volumes, "--out", scratch / "eq")
     run(sys.executable, ROOT / "tools/plot_equilibrium.py", scratch / "eq", "--out", out / "equilibrium.png")
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Flow in rectangular ducts: a cross-section with its error against the series, and the convergence of several runs.
 
-    duct_flow --cells 8 --refine 4 --output out/duct/periodic
-    duct_flow --cells 8 --refine 3 --ends walls --output out/duct/walls
+    duct_flow --cells 8 --refine 4 --out out/duct/periodic
+    duct_flow --cells 8 --refine 3 --ends walls --out out/duct/walls
     plot_duct_flow.py out/duct/periodic out/duct/walls
 
 The cross-section is that of the first folder's finest grid.
@@ -28,7 +28,7 @@ STYLE = {"font.size": 10, "axes.titlesize": 10, "savefig.dpi": 160}
 def read(folder):
     source = folder / "duct_flow.json"
     if not source.exists():
-        sys.exit(f"{source} is missing (duct_flow --output {folder} writes it)")
+        sys.exit(f"{source} is missing (duct_flow --out {folder} writes it)")
     return json.loads(source.read_text())
 
 
@@ -72,7 +72,7 @@ def draw_convergence(axes, runs):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folders", type=Path, nargs="+", help="the --output of runs of duct_flow")
+    parser.add_argument("folders", type=Path, nargs="+", help="the --out of runs of duct_flow")
     parser.add_argument("--out", type=Path, default=Path("duct_flow.png"), help="the picture")
     arguments = parser.parse_args()
     runs = [read(folder) for folder in arguments.folders]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Least bending energy against reduced volume, with the shapes, from the folder of the app equilibrium_shape.
 
-    equilibrium_shape --branch prolate --reduced-volume 0.6:1:0.02 --output out/equilibrium
-    equilibrium_shape --branch oblate --reduced-volume 0.52:1:0.02 --output out/equilibrium
+    equilibrium_shape --branch prolate --reduced-volume 0.6:1:0.02 --out out/equilibrium
+    equilibrium_shape --branch oblate --reduced-volume 0.52:1:0.02 --out out/equilibrium
     plot_equilibrium.py out/equilibrium
 
 Draws the branches that the folder has.
@@ -43,7 +43,7 @@ def read_branch(folder, branch):
     """The shapes that were found, in order of reduced volume, with their meridians."""
     path = folder / f"{branch}.json"
     if not path.exists():
-        raise MissingData(f"{path} is missing (equilibrium_shape --branch {branch} --output {folder} writes it)")
+        raise MissingData(f"{path} is missing (equilibrium_shape --branch {branch} --out {folder} writes it)")
     shapes = [shape for shape in json.loads(path.read_text())["shapes"] if shape["converged"]]
     if not shapes:
         raise MissingData(f"{path} has no shapes that converged")
@@ -93,7 +93,7 @@ def draw(branches, target):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="the --output of equilibrium_shape")
+    parser.add_argument("folder", type=Path, help="the --out of equilibrium_shape")
     parser.add_argument("--out", type=Path, help="the picture (default: FOLDER/equilibrium_shapes.png)")
     arguments = parser.parse_args()
     if not arguments.folder.is_dir():

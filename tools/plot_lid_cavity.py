@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Centreline velocities of the lid-driven cube beside published points, and the flow in its mid-plane.
 
-    lid_cavity --cells 32 48 64 --output out/lid_cavity
+    lid_cavity --cells 32 48 64 --out out/lid_cavity
     plot_lid_cavity.py out/lid_cavity
 """
 import argparse
@@ -65,12 +65,12 @@ def draw_plane(figure, axes, path, cells):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=Path, help="the --output of lid_cavity")
+    parser.add_argument("folder", type=Path, help="the --out of lid_cavity")
     parser.add_argument("--out", type=Path, help="the picture (default: FOLDER/lid_cavity.png)")
     arguments = parser.parse_args()
     source = arguments.folder / "lid_cavity.json"
     if not source.exists():
-        parser.error(f"{source} is missing (lid_cavity --output {arguments.folder} writes it)")
+        parser.error(f"{source} is missing (lid_cavity --out {arguments.folder} writes it)")
     result = json.loads(source.read_text())
     cells = result["grids"][-1]["cells"]
 

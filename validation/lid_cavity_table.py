@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The tables of validation/lid_cavity.md, from the JSON that lid_cavity --output writes.
+"""The tables of validation/lid_cavity.md, from the JSON that lid_cavity --out writes.
 
 usage: lid_cavity_table.py LID_CAVITY_JSON
 """

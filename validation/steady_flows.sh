@@ -15,7 +15,7 @@ revision() { git rev-parse --short=12 HEAD; }
 duct() { # duct NAME OPTION...
   echo "\`duct_flow ${*:2}\`"
   echo '```'
-  "$apps/duct_flow" "${threads[@]}" "${@:2}" --output "$out/duct/$1"
+  "$apps/duct_flow" "${threads[@]}" "${@:2}" --out "$out/duct/$1"
   echo '```'
   echo
 }
@@ -38,7 +38,7 @@ scripts/python.sh tools/plot_duct_flow.py "$out"/duct/{periodic_2.25,periodic_3,
   --out docs/images/fluid/duct_flow.png
 
 cavity=(--cells 32 48 64 96 --tolerance 2e-6)
-"$apps/lid_cavity" "${threads[@]}" "${cavity[@]}" --output "$out/lid_cavity"
+"$apps/lid_cavity" "${threads[@]}" "${cavity[@]}" --out "$out/lid_cavity"
 {
   echo "# The lid-driven cube beside published profiles"
   echo

@@ -1,7 +1,6 @@
 // Flow in a rectangular duct against its exact series, by libfluid alone.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +19,8 @@ struct Arguments : SteadyArguments {
   DuctMethod method = DuctMethod::unsteady;
   std::array<int, 3> cells{};
   int refinements = 0;
-  std::string output;
+  std::string out;
+  bool quiet = false;
 };
 
 // Cubes as nearly as can be, with `across` cells along y.
@@ -32,11 +32,10 @@ std::array<int, 3> cells_of(const Duct& duct, int across) {
 }
 
 bool parse_command_line(int argc, char** argv, Arguments& arguments) {
-  CLI::App command_line(
-      "Pressure-driven flow in a rectangular duct, from rest to the steady state, against the exact series (Eq. 35 of "
-      "the "
-      "paper).",
-      "duct_flow");
+  CommandLine command_line(
+      "duct_flow",
+      "Pressure-driven flow in a rectangular duct, from rest to the steady state, against the exact "
+      "series (Eq. 35 of the paper).");
   Duct& duct = arguments.duct;
   std::vector<double> half_widths = {3, 3};
   std::vector<int> cells = {32};
@@ -44,7 +43,8 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   double length = 0;
   bool stokes = false;
   command_line
-      .add_option("--ends", ends, "periodic (driven by a body force) or walls (velocity of the series on both ends)")
+      .add_choice("--ends", ends, {"periodic", "walls"},
+                  "driven by a body force, or by the velocity of the series on both ends")
       ->capture_default_str();
   command_line.add_option("--half-widths", half_widths, "along y and z")->expected(2)->default_str("3 3");
   CLI::Option* const given_length = command_line.add_option("--length", length, "of the duct (default: its width)");
@@ -58,19 +58,16 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   command_line.add_flag("--stokes", stokes, "solve the Stokes problem at once, without inertia and time");
   declare(command_line, arguments,
           "of the velocity per diffusion time, largest velocity 1 (--stokes: relative residual)");
-  command_line.add_option("--output", arguments.output,
-                          "folder for the results as JSON and the flow in a cross-section");
-  if (!parse(command_line, argc, argv, arguments)) return false;
+  command_line.add_out(arguments.out, "the results as JSON, and the flow in a cross-section (default: no files)");
+  if (!read(command_line, argc, argv, arguments)) return false;
 
-  if (ends != "periodic" && ends != "walls")
-    throw CommandLineError(fmt::format("--ends {}: must be one of periodic, walls", ends));
+  arguments.quiet = command_line.is_quiet();
   duct.ends = ends == "walls" ? DuctEnds::walls : DuctEnds::periodic;
-  for (const double width : half_widths)
-    require(std::isfinite(width) && width > 0, "--half-widths", width, "finite and > 0");
+  for (const double width : half_widths) require_positive("--half-widths", width);
   duct.d = half_widths[0];
   duct.e = half_widths[1];
   duct.length = given_length->count() > 0 ? length : 2 * duct.d;
-  require(std::isfinite(duct.length) && duct.length > 0, "--length", duct.length, "finite and > 0");
+  require_positive("--length", duct.length);
   duct.reynolds_number = arguments.reynolds_number;
   arguments.method = stokes ? DuctMethod::stokes : DuctMethod::unsteady;
   require(arguments.refinements >= 0 && arguments.refinements <= most_refinements, "--refine", arguments.refinements,
@@ -97,7 +94,7 @@ std::array<int, 3> refined(const Arguments& arguments, int times) {
 ExitCode run(int argc, char** argv) {
   Arguments arguments;
   if (!parse_command_line(argc, argv, arguments)) return success;
-  const std::filesystem::path folder = arguments.output;
+  const std::filesystem::path folder = arguments.out;
   if (!folder.empty()) make_folder(folder);
 
   std::vector<DuctFlow> flows;
@@ -109,7 +106,7 @@ ExitCode run(int argc, char** argv) {
     if (!arguments.quiet) say("{} cells\n", name);
     flows.push_back(compute_duct(arguments.duct, cells, arguments.method, arguments.steady));
     const SteadyRun& last = flows.back().run;
-    if (!last.steady) say("{} cells: not steady at time {:g}: change {:.1e}\n", name, last.time, last.change);
+    if (!last.steady) say("error: {} cells: not steady at time {:g}: change {:.1e}\n", name, last.time, last.change);
     all_steady = all_steady && last.steady;
     json = to_json(arguments.duct, arguments.method, flows).dump(1) + "\n";
     if (folder.empty()) continue;
@@ -117,7 +114,7 @@ ExitCode run(int argc, char** argv) {
     write_text(folder / "duct_flow.json", json);
   }
   print_result(arguments.json ? json : table(arguments.duct, arguments.method, flows));
-  return all_steady ? success : not_steady;
+  return all_steady ? success : stopped;
 }
 
 }  // namespace

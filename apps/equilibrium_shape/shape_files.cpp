@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <numbers>
 
+#include "output_files.h"
 #include "vesicle/surface_file.h"
 
 namespace equilibrium {
@@ -28,20 +28,6 @@ std::string meridian_table(const ConstrainedEnergy& energy) {
 }
 
 }  // namespace
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw FileError(fmt::format("--output {}: cannot be made: {}", folder.string(), error.message()));
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file);
-  stream << text;
-  stream.close();
-  if (!stream) throw FileError(fmt::format("{}: cannot be written there", file.string()));
-}
 
 void write_shape(const std::filesystem::path& folder, const Equilibrium& shape, const ConstrainedEnergy& energy) {
   const std::string stem = fmt::format("{}_{}", name_of(shape.branch), shape.reduced_volume);

@@ -1,26 +1,24 @@
 // Table 1 of the paper: errors of H, K and Lap_Gamma H of known surfaces.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <iterator>
 #include <map>
 
 #include "coefficient_surface.h"
+#include "command_line.h"
 #include "expression_surface.h"
 #include "known_surfaces.h"
-#include "passive_waiting.h"
+#include "program.h"
 #include "report.h"
 
 using namespace vesiflow::vesicle;
 
 namespace {
 
-constexpr int bad_input = 2;
-constexpr int largest_latitudes = 256;
+constexpr int least_latitudes = 4, most_latitudes = 256;
 
 const std::map<std::string, LaplacianForm> forms = {{"cartesian", LaplacianForm::cartesian},
                                                     {"christoffel", LaplacianForm::christoffel},
@@ -46,28 +44,36 @@ struct Arguments {
   bool json = false;
 };
 
-void declare(CLI::App& command_line, Arguments& arguments) {
+// Any of the words, all by default.
+template <class Value>
+void add_words(CommandLine& command_line, const std::string& option, std::vector<std::string>& chosen,
+               const std::map<std::string, Value>& values, const std::string& what) {
+  const std::vector<std::string> words = names_of(values);
+  command_line.complete(option, words);
+  command_line.add_option(option, chosen, what)
+      ->type_name(fmt::format("{}", fmt::join(words, "|")))
+      ->default_str("all");
+}
+
+void declare(CommandLine& command_line, Arguments& arguments) {
   command_line
       .add_option("--surface", arguments.surfaces,
-                  fmt::format("surfaces: {}; a .toml file of expressions; or a file of coefficients",
+                  fmt::format("{}; a .toml file of expressions; or a file of coefficients",
                               fmt::join(known_surface_names(), ", ")))
+      ->type_name("FILE")
       ->default_str("sphere ellipsoid y32");
+  command_line.complete("--surface", known_surface_names());
   command_line.add_option("--latitudes", arguments.latitudes, "latitudes of the markers, N")
-      ->default_str("16 32 64 128")
-      ->check(CLI::Range(4, largest_latitudes));
+      ->default_str("16 32 64 128");
   command_line
       .add_option("--sampling", arguments.samplings,
                   "1: sample the surface at the markers, as a simulation has it; 2: on twice the latitudes, for the "
                   "Cartesian form")
-      ->default_str("1 2")
-      ->check(CLI::IsMember({1, 2}));
-  const auto add_choice = [&](const char* option, auto& chosen, const auto& values, const char* description) {
-    command_line.add_option(option, chosen, description)->default_str("all")->check(CLI::IsMember(names_of(values)));
-  };
-  add_choice("--formula", arguments.forms, forms, "forms of Lap H");
-  add_choice("--upsampling", arguments.upsamplings, upsamplings, "latitudes of the grid of Lap H, over N");
-  add_choice("--truncated", arguments.truncations, truncations, "true: Lap H cut to degrees n < N");
-  command_line.add_flag("--json", arguments.json, "write a JSON list to standard output");
+      ->default_str("1 2");
+  add_words(command_line, "--formula", arguments.forms, forms, "forms of Lap H");
+  add_words(command_line, "--upsampling", arguments.upsamplings, upsamplings, "latitudes of the grid of Lap H, over N");
+  add_words(command_line, "--truncated", arguments.truncations, truncations, "true: Lap H cut to degrees n < N");
+  command_line.add_json(arguments.json);
 }
 
 std::unique_ptr<SurfaceSource> surface_of(const std::string& name) {
@@ -92,19 +98,18 @@ std::vector<LaplacianOptions> options_of(const Arguments& arguments, int samplin
   return options;
 }
 
-int geometry_accuracy(int argc, char** argv) {
+ExitCode run(int argc, char** argv) {
   Arguments arguments;
-  CLI::App command_line(
-      "Errors of mean curvature, Gaussian curvature and the surface Laplacian of the mean curvature "
-      "(Table 1 of the paper).",
-      "geometry_accuracy");
+  CommandLine command_line("geometry_accuracy",
+                           "Errors of mean curvature, Gaussian curvature and the surface Laplacian of the mean "
+                           "curvature (Table 1 of the paper).");
   declare(command_line, arguments);
-  try {
-    command_line.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return command_line.exit(error) == 0 ? 0 : bad_input;
-  }
-  wait_passively(argv);
+  if (!command_line.read(argc, argv)) return success;
+  for (const int latitudes : arguments.latitudes)
+    require(latitudes >= least_latitudes && latitudes <= most_latitudes, "--latitudes", latitudes,
+            fmt::format("from {} to {}", least_latitudes, most_latitudes));
+  for (const int sampling : arguments.samplings)
+    require(sampling == 1 || sampling == 2, "--sampling", sampling, "1 or 2");
   Surfaces surfaces;
   for (const std::string& name : arguments.surfaces) surfaces.push_back(surface_of(name));
   std::vector<Measurement> all;
@@ -112,25 +117,23 @@ int geometry_accuracy(int argc, char** argv) {
     const std::vector<LaplacianOptions> options = options_of(arguments, sampling);
     if (options.empty()) continue;
     auto measurements = measure(surfaces, arguments.latitudes, sampling, options);
-    if (!arguments.json) fmt::print("{}\n", text_report(measurements));
+    if (!arguments.json) print_result(text_report(measurements) + "\n");
     std::ranges::move(measurements, std::back_inserter(all));
   }
   if (all.empty())
     throw InputError("--sampling 2: Lap H only with --formula cartesian --upsampling 2 --truncated false");
-  if (arguments.json) fmt::print("{}", json_report(all));
-  return 0;
+  if (arguments.json) print_result(json_report(all));
+  return success;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return geometry_accuracy(argc, argv);
-  } catch (const InputError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return bad_input;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "internal error: {}\n", error.what());
-    return 1;
-  }
+  return run_program([&]() -> ExitCode {
+    try {
+      return run(argc, argv);
+    } catch (const InputError& error) {
+      throw CommandLineError(error.what());
+    }
+  });
 }

@@ -1,8 +1,6 @@
 // The lid-driven cube against published profiles, by libfluid alone.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "output_files.h"
 #include "program.h"
 #include "report.h"
@@ -17,24 +15,25 @@ constexpr int fewest_cells = 8, most_cells = 512;
 
 struct Arguments : SteadyArguments {
   std::vector<int> cells = {32};
-  std::string output;
+  std::string out;
+  bool quiet = false;
 };
 
 bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   arguments.reynolds_number = albensoeder_kuhlmann::reynolds_number;
   arguments.steady.tolerance = 1e-6;
-  CLI::App command_line(
-      "Steady flow in a cube with a moving lid: velocities on the centrelines, beside published ones at Reynolds "
-      "number "
-      "1000.",
-      "lid_cavity");
+  CommandLine command_line(
+      "lid_cavity",
+      "Steady flow in a cube with a moving lid: velocities on the centrelines, beside published ones "
+      "at Reynolds number 1000.");
   command_line
       .add_option("--cells", arguments.cells,
                   "cells along each edge; each of several grids starts from the flow on the one before")
       ->default_str("32");
   declare(command_line, arguments, "of the velocity per unit time (lid's velocity and edge are 1)");
-  command_line.add_option("--output", arguments.output, "folder for the results as JSON and the flow in the mid-plane");
-  if (!parse(command_line, argc, argv, arguments)) return false;
+  command_line.add_out(arguments.out, "the results as JSON, and the flow in the mid-plane (default: no files)");
+  if (!read(command_line, argc, argv, arguments)) return false;
+  arguments.quiet = command_line.is_quiet();
   for (const int cells : arguments.cells)
     require(cells >= fewest_cells && cells <= most_cells, "--cells", cells,
             fmt::format("from {} to {}", fewest_cells, most_cells));
@@ -44,7 +43,7 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
 ExitCode run(int argc, char** argv) {
   Arguments arguments;
   if (!parse_command_line(argc, argv, arguments)) return success;
-  const std::filesystem::path folder = arguments.output;
+  const std::filesystem::path folder = arguments.out;
   if (!folder.empty()) make_folder(folder);
 
   std::vector<CavityFlow> flows;
@@ -56,7 +55,8 @@ ExitCode run(int argc, char** argv) {
                                    flows.empty() ? nullptr : &flows.back().velocity));
     const SteadyRun& last = flows.back().run;
     if (!last.steady)
-      say("{}^3 cells: not steady at time {:g}: it changes by {:.1e} per unit time\n", cells, last.time, last.change);
+      say("error: {}^3 cells: not steady at time {:g}: it changes by {:.1e} per unit time\n", cells, last.time,
+          last.change);
     all_steady = all_steady && last.steady;
     json = to_json(flows, arguments.reynolds_number).dump(1) + "\n";
     if (folder.empty()) continue;
@@ -64,7 +64,7 @@ ExitCode run(int argc, char** argv) {
     write_text(folder / "lid_cavity.json", json);
   }
   print_result(arguments.json ? json : table(flows, arguments.reynolds_number));
-  return all_steady ? success : not_steady;
+  return all_steady ? success : stopped;
 }
 
 }  // namespace

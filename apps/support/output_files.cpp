@@ -9,7 +9,7 @@
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(fmt::format("--output {}: cannot be made: {}", folder.string(), error.message()));
+  if (error) throw FileError(fmt::format("--out {}: cannot be made: {}", folder.string(), error.message()));
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

@@ -1,18 +1,16 @@
 #include "scene_app.h"
 
 #include <fmt/format.h>
-#include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "command_line.h"
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
 #include "coupling/flow.h"
 #include "coupling/plan.h"
 #include "coupling/run.h"
 #include "memory_use.h"
-#include "passive_waiting.h"
 #include "streams.h"
 
 using namespace vesiflow::coupling;
@@ -21,34 +19,78 @@ namespace {
 
 struct Arguments {
   std::string scene;
-  std::string directory;
+  std::string out;
   std::string checkpoint;
   std::string start_from;
   Overrides overrides;
-  int threads = omp_get_max_threads();
   bool plan = false;
-  bool quiet = false;
 };
 
-void declare(CLI::App& command_line, Arguments& arguments) {
-  command_line.add_option("scene", arguments.scene, "scene file (docs/scene.md); with --restart it may be left out");
-  command_line.add_option("--out", arguments.directory, "folder for the results (default out/NAME_OF_SCENE)");
+void declare(CommandLine& command_line, Arguments& arguments) {
+  command_line.require_arguments();
+  command_line
+      .add_option("scene", arguments.scene,
+                  "scene file (docs/scene.md), or a folder with a scene.toml; may be left out with --restart")
+      ->type_name("FILE");
+  command_line.add_out(arguments.out,
+                       "the results (default: out/NAME_OF_SCENE, with --restart the checkpoint's folder)");
   command_line.add_option("--set", arguments.overrides, "override a key of the scene: --set time.end=2.0 (repeatable)")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command_line.add_option("--threads", arguments.threads, "threads (default: all cores)")->check(CLI::Range(1, 1024));
-  command_line.add_option("--restart", arguments.checkpoint, "continue from this checkpoint.h5");
+  command_line
+      .add_option("--restart", arguments.checkpoint, "continue from this checkpoint.h5, or from that of a folder")
+      ->type_name("FILE");
   command_line
       .add_option("--start-from", arguments.start_from,
                   "begin at t = 0 with vesicles and velocity of the end of this run: its folder or a checkpoint")
+      ->type_name("FILE")
       ->excludes("--restart")
       ->needs("scene");
   command_line.add_flag("--plan", arguments.plan, "print what would be computed and written, then exit");
-  command_line.add_flag("--quiet", arguments.quiet, "no progress");
+  std::vector<std::string> keys;
+  for (const SceneKey& key : scene_keys())
+    keys.push_back((key.name.starts_with("vesicles.") ? "vesicles.0" + key.name.substr(8) : key.name) + "=");
+  command_line.complete("--set", keys);
+}
+
+// What the shell takes apart in `--set key = value`, and in `--set key= value`, is one word again.
+std::vector<std::string> with_spaces_around_equals(int argc, char** argv) {
+  const std::vector<std::string> given(argv + 1, argv + argc);
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    words.push_back(given[i]);
+    if (given[i] != "--set" || ++i == given.size()) continue;
+    std::string item = given[i];
+    if (item.find('=') == std::string::npos && i + 1 < given.size() && given[i + 1].starts_with('='))
+      item += given[++i];
+    if (item.ends_with('=') && i + 1 < given.size() && !given[i + 1].starts_with("--")) item += given[++i];
+    words.push_back(item);
+  }
+  return words;
+}
+
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::is_directory(path, error);
+}
+
+constexpr const char* checkpoint_name = "checkpoint.h5";
+
+bool read(CommandLine& command_line, int argc, char** argv, Arguments& arguments) {
+  try {
+    if (!command_line.read(argv, with_spaces_around_equals(argc, argv))) return false;
+  } catch (const CommandLineError& error) {
+    throw SceneError(error.what());
+  }
+  if (is_folder(arguments.checkpoint))
+    arguments.checkpoint = (std::filesystem::path(arguments.checkpoint) / checkpoint_name).string();
+  return true;
 }
 
 Scene scene_of(const Arguments& arguments) {
   if (!arguments.scene.empty()) return load_scene(arguments.scene, arguments.overrides);
-  if (arguments.checkpoint.empty()) throw SceneError("a scene file is needed (or --restart with a checkpoint)");
+  if (arguments.checkpoint.empty())
+    throw SceneError("a scene file is needed, or --restart with a checkpoint (--help shows how)");
   return read_checkpoint_scene(arguments.checkpoint, arguments.overrides);
 }
 
@@ -62,18 +104,24 @@ void require_flow(const SceneApp& app, const Scene& scene, const std::string& fi
                                app.name, names));
 }
 
+// A run goes on in its own folder. A checkpoint by another name is a copy: what lies beside it is not of its run.
 std::filesystem::path directory_of(const Arguments& arguments) {
-  if (!arguments.directory.empty()) return arguments.directory;
-  if (arguments.scene.empty()) return std::filesystem::absolute(arguments.checkpoint).parent_path();
-  return std::filesystem::path("out") / std::filesystem::path(arguments.scene).stem();
+  if (!arguments.out.empty()) return arguments.out;
+  const std::filesystem::path checkpoint = arguments.checkpoint;
+  if (checkpoint.filename() == checkpoint_name)
+    return checkpoint.has_parent_path() ? checkpoint.parent_path() : std::filesystem::path(".");
+  const std::filesystem::path named =
+      std::filesystem::path(arguments.scene.empty() ? arguments.checkpoint : arguments.scene).lexically_normal();
+  const std::filesystem::path last = named.has_filename() ? named : named.parent_path();
+  return "out" / (is_folder(named) ? std::filesystem::absolute(last).lexically_normal().filename() : last.stem());
 }
 
 // What of the command line is not in a checkpoint.
-std::vector<std::string> command_to_repeat(const char* program, const Arguments& arguments) {
+std::vector<std::string> command_to_repeat(const char* program, const CommandLine& command_line) {
   std::vector<std::string> words{program};
-  if (arguments.threads != omp_get_num_procs())
-    words.insert(words.end(), {"--threads", std::to_string(arguments.threads)});
-  if (arguments.quiet) words.emplace_back("--quiet");
+  if (command_line.threads() != omp_get_num_procs())
+    words.insert(words.end(), {"--threads", std::to_string(command_line.threads())});
+  if (command_line.is_quiet()) words.emplace_back("--quiet");
   return words;
 }
 
@@ -81,22 +129,17 @@ std::vector<std::string> command_to_repeat(const char* program, const Arguments&
 
 int run_scene_app(const SceneApp& app, int argc, char** argv) {
   Arguments arguments;
-  CLI::App command_line(app.description, app.name);
+  CommandLine command_line(app.name, app.description);
   declare(command_line, arguments);
-  try {
-    command_line.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return command_line.exit(error) == 0 ? exit_code::success : exit_code::bad_input;
-  }
-  wait_passively(argv);
+  if (!read(command_line, argc, argv, arguments)) return exit_code::success;
   return_large_blocks();
 
   const std::string name = arguments.scene.empty() ? arguments.checkpoint : arguments.scene;
   const Scene scene = scene_of(arguments);
   require_flow(app, scene, name);
-  omp_set_num_threads(arguments.threads);
+  const std::filesystem::path directory = directory_of(arguments);
   if (arguments.plan) {
-    if (const std::string reason = put_out(describe_plan(scene, arguments.threads)); !reason.empty())
+    if (const std::string reason = put_out(describe_plan(scene, command_line.threads(), directory)); !reason.empty())
       throw FileError("standard output: the plan cannot be written: " + reason);
     return exit_code::success;
   }
@@ -106,12 +149,12 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   RunOptions options;
   options.program = app.name;
   options.scene_file = name;
-  options.directory = directory_of(arguments);
+  options.directory = directory;
   if (!arguments.checkpoint.empty()) options.checkpoint = arguments.checkpoint;
   if (!arguments.start_from.empty()) options.start_from = arguments.start_from;
-  options.quiet = arguments.quiet;
-  options.command = command_to_repeat(argv[0], arguments);
+  options.quiet = command_line.is_quiet();
+  options.command = command_to_repeat(argv[0], command_line);
   const RunStatus status = run(simulation, options);
-  if (!arguments.quiet) put_out(fmt::format("results in {}\n", options.directory.string()));
+  if (!options.quiet) put_out(fmt::format("results in {}\n", directory.string()));
   return exit_code::of(status);
 }

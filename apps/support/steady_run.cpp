@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 
+#include "program.h"
 #include "streams.h"
 
 using namespace vesiflow::fluid;
@@ -72,7 +72,7 @@ double choose_time_step(const SteadyOptions& options, const FaceVector& velocity
 
 void check_bounded(const NavierStokes& fluid, const SteadyRun& run) {
   if (courant_rate(fluid.velocity()) * fluid.grid().min_spacing() < 3 * impossible_speed) return;
-  throw std::runtime_error(
+  throw Stopped(
       fmt::format("the velocity has passed {} at time {:g} with time step {:g}: take a smaller --time-step or "
                   "--courant-number, or more cells",
                   impossible_speed, fluid.time(), run.time_step));

@@ -28,7 +28,7 @@ struct SteadyRun {
   double seconds = 0;  ///< wall time
 };
 
-/// Steps the flow from where it is. Throws what NavierStokes::step() throws, and std::runtime_error with the time and the
+/// Steps the flow from where it is. Throws what NavierStokes::step() throws, and Stopped of program.h with the time and the
 /// step if the velocity passes 100: the step was too long for the explicit convection.
 SteadyRun run_to_steady_state(vesiflow::fluid::NavierStokes& fluid, const SteadyOptions& options);
 

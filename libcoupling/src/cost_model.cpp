@@ -63,20 +63,9 @@ Size size_of(const Scene& scene) {
   return size;
 }
 
-// How often in a run something is written that is due at such an interval.
-double times_due(const Scene& scene, double every, bool at_start) {
-  if (every <= 0.0) return 0.0;
-  const double interval = std::max(every, scene.time.step);
-  return std::ceil(scene.time.end / interval - 1e-9) + (at_start ? 1.0 : 0.0);
-}
-
-double steps_of(const Scene& scene) {
-  return scene.time.adaptive ? std::ceil(scene.time.end / scene.time.step) : static_cast<double>(scene.steps());
-}
-
 class CostModel {
  public:
-  explicit CostModel(const Scene& scene) : scene_(scene), size_(size_of(scene)), steps_(steps_of(scene)) {}
+  explicit CostModel(const Scene& scene) : scene_(scene), size_(size_of(scene)), steps_(planned_steps(scene)) {}
 
   std::vector<PhaseCost> all() {
     of_membranes();
@@ -235,6 +224,16 @@ class CostModel {
 };
 
 }  // namespace
+
+double times_due(const Scene& scene, double every, bool at_start) {
+  if (every <= 0.0) return 0.0;
+  const double interval = std::max(every, scene.time.step);
+  return std::ceil(scene.time.end / interval - 1e-9) + (at_start ? 1.0 : 0.0);
+}
+
+double planned_steps(const Scene& scene) {
+  return scene.time.adaptive ? std::ceil(scene.time.end / scene.time.step) : static_cast<double>(scene.steps());
+}
 
 std::vector<PhaseCost> estimate_costs(const Scene& scene) {
   return CostModel(scene).all();

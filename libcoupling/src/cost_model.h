@@ -22,4 +22,10 @@ struct PhaseCost {
 /// than seconds do.
 std::vector<PhaseCost> estimate_costs(const Scene& scene);
 
+/// How often in a run something is written that is due at such an interval.
+double times_due(const Scene& scene, double every, bool at_start);
+
+/// Steps of a run; adaptive ones are taken to be as long as the first.
+double planned_steps(const Scene& scene);
+
 }  // namespace vesiflow::coupling

@@ -17,6 +17,7 @@
 #include "fluid/elliptic_solver.h"
 #include "initial_shape.h"
 #include "memory_plan.h"
+#include "plan_totals.h"
 #include "recommended_region.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
@@ -381,7 +382,7 @@ void describe_costs(Plan& plan, const Scene& scene) {
 
 }  // namespace
 
-std::string describe_plan(const Scene& scene, int threads) {
+std::string describe_plan(const Scene& scene, int threads, const std::filesystem::path& directory) {
   Plan plan;
   if (!scene.title.empty()) plan.head(scene.title);
   describe_resolution(plan, scene, threads);
@@ -389,7 +390,7 @@ std::string describe_plan(const Scene& scene, int threads) {
   describe_step(plan, scene);
   describe_output(plan, scene);
   describe_costs(plan, scene);
-  return plan.text();
+  return plan.text() + describe_totals(scene, threads, directory);
 }
 
 }  // namespace vesiflow::coupling

@@ -43,6 +43,9 @@ std::optional<std::filesystem::path> move_earlier_results(const std::filesystem:
 void write_summary(const std::filesystem::path& directory, const RunOptions& options, Simulation& simulation,
                    RunRecord& record);
 
+/// Whether the summary in the directory says that a run has been completed with so many steps.
+bool is_completed(const std::filesystem::path& directory, long steps);
+
 /// diagnostics.csv: one whole line per vesicle and time, appended at once. What a kill has left of a line is removed.
 class DiagnosticsTable {
  public:

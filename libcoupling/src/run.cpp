@@ -73,6 +73,8 @@ class Run {
     return options_.checkpoint && std::filesystem::equivalent(*options_.checkpoint, checkpoint_file(), error);
   }
 
+  void restore();
+  bool is_complete() const;
   void start();
   void rewind_files();
   void log_redistributions();
@@ -121,14 +123,22 @@ void require_hdf5(const Scene::Output& output) {
   refuse("output.checkpoint_every", output.checkpoint_every);
 }
 
+void Run::restore() {
+  if (!options_.checkpoint) return;
+  restore_checkpoint(*options_.checkpoint, simulation_);
+  last_checkpoint_ = *options_.checkpoint;
+}
+
+// Whether there is nothing to compute, and the results are those of this end. Others are not: of a run that was killed before its
+// last summary, or of one that went on from here, whose checkpoint was exchanged for an earlier one.
+bool Run::is_complete() const {
+  return simulation_.finished() && continues_own_directory() && is_completed(directory_, simulation_.steps());
+}
+
 void Run::start() {
-  require_hdf5(simulation_.scene().output);
-  if (options_.checkpoint) {
-    restore_checkpoint(*options_.checkpoint, simulation_);
-    last_checkpoint_ = *options_.checkpoint;
-    spdlog::info("continuing from {} at step {}, t = {:.6g}", options_.checkpoint->string(), simulation_.steps(),
-                 simulation_.time());
-  }
+  if (options_.checkpoint)
+    spdlog::info("continuing from {} at step {}, t = {:.6g}; results go on in {}", options_.checkpoint->string(),
+                 simulation_.steps(), simulation_.time(), directory_.string());
   if (options_.start_from) {
     start_from(*options_.start_from, simulation_);
     const Start& start = *simulation_.started_from();
@@ -351,6 +361,15 @@ void Run::fail(const FileError& error) {
 }
 
 RunStatus Run::execute() {
+  require_hdf5(simulation_.scene().output);
+  restore();
+  if (is_complete()) {
+    spdlog::info(
+        "this run is complete at t = {:.6g}, nothing is computed or written; to go on, set a later time.end: --set "
+        "time.end={:g}",
+        simulation_.time(), 2.0 * simulation_.time());
+    return RunStatus::completed;
+  }
   const StopRequest guard;
   start();
   progress_.emplace(options_.quiet, simulation_);

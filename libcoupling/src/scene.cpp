@@ -13,6 +13,7 @@
 #include "coupling/marker_transfer.h"
 #include "initial_shape.h"
 #include "mirror_symmetry.h"
+#include "scene_mistakes.h"
 #include "vesicle_scales.h"
 
 namespace vesiflow::coupling {
@@ -372,23 +373,21 @@ long Scene::steps() const {
 }
 
 void check_scene(const Scene& scene, const std::string& name) {
-  check_domain(scene, name);
-  check_accuracy(scene, name);
-  check_physics(scene, name);
-  check_tension(scene, name);
-  check_time(scene, name);
-  check_time_keys(scene, name);
-  check_flow(scene, name);
-  check_thickness(scene, name);
-  check_limits(scene, name);
-  check_gravity(scene, name);
+  check_domain(scene, name);  // all others count in its spacings
   if (scene.vesicles.empty()) throw SceneError(fmt::format("{}: a scene needs at least one vesicle", name));
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
-    check_degrees(scene, i, name);
-    check_vesicle_keys(scene, i, name);
-    check_inside_box(scene, i, name);
-  }
-  check_apart(scene, name);
+  SceneMistakes mistakes;
+  for (const auto check : {check_accuracy, check_physics, check_tension, check_time, check_time_keys, check_flow,
+                           check_thickness, check_limits, check_gravity})
+    mistakes.gather([&] { check(scene, name); });
+  bool have_shapes = true;
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
+    have_shapes &= mistakes.gather([&] {
+      check_degrees(scene, i, name);
+      check_vesicle_keys(scene, i, name);
+      check_inside_box(scene, i, name);
+    });
+  if (have_shapes) mistakes.gather([&] { check_apart(scene, name); });
+  mistakes.refuse();
 }
 
 }  // namespace vesiflow::coupling

@@ -1,6 +1,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "atomic_file.h"
@@ -13,6 +14,8 @@ namespace vesiflow::coupling {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* summary_name = "summary.json";
 
 Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -138,7 +141,16 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   const Phases phases = simulation.phases();
   summary["phase_seconds"] = phases_of(phases, record, [](const auto& account) { return account.seconds; });
   summary["phase_entries"] = phases_of(phases, record, [](const auto& account) { return account.entries; });
-  write_text_atomically(directory / "summary.json", summary.dump(2) + "\n");
+  write_text_atomically(directory / summary_name, summary.dump(2) + "\n");
+}
+
+bool is_completed(const std::filesystem::path& directory, long steps) {
+  std::ifstream stream(directory / summary_name);
+  const Json summary = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  const auto says = [&](const char* key, const Json& value) {
+    return summary.is_object() && summary.contains(key) && summary[key] == value;
+  };
+  return says("status", "completed") && says("steps", steps);
 }
 
 }  // namespace vesiflow::coupling

@@ -19,7 +19,7 @@ refused() {
   shift 2
   message=$("$shear_flow" "$@" --out "$work/run" --quiet 2>&1)
   status=$?
-  if [[ $status -ne $code || ! $message =~ $pattern || $message == *"internal error"* || $(wc -l <<<"$message") -gt 3 ]]; then
+  if [[ $status -ne $code || ! $message =~ ^"error: ".*$pattern || $message == *"internal error"* || $(wc -l <<<"$message") -gt 4 ]]; then
     echo "FAILED ($status, expected $code and '$pattern'): $* -> $message"
     failures=$((failures + 1))
   else
@@ -39,6 +39,11 @@ write unknown_key $'[fluid]\nreynolds = 1.0\n'"$vesicle"
 write negative_viscosity $'[fluid]\nviscosity_ratio = -1.0\n'"$vesicle"
 write not_toml $'[domain\ncells = 64'
 write no_vesicle $'[domain]\ncells = 64'
+write several $'[fluid]\nreynolds_number = -1.0\n[time]\nend = -2\n[membran]\nsigma0 = 1\n'"$vesicle"
+write misplaced $'[flow]\nend = 2.0\n'"$vesicle"
+write no_value $'[flow]\ntype = shear\n'"$vesicle"
+mkdir "$work/empty_folder"
+: >"$work/empty.toml"
 head -c 20000 "$work/run/checkpoint.h5" >"$work/truncated.h5"
 echo "not a checkpoint" >"$work/text.h5"
 
@@ -48,12 +53,25 @@ refused 2 'unknown_key.toml:2: fluid.reynolds.*did you mean fluid.reynolds_numbe
 refused 2 'negative_viscosity.toml:2: fluid.viscosity_ratio = -1.*in \[0.05, 100\]' "$work/negative_viscosity.toml"
 refused 2 'not_toml.toml:[0-9]+: not valid TOML' "$work/not_toml.toml"
 refused 2 'no_vesicle.toml.*vesicles' "$work/no_vesicle.toml"
+refused 2 'empty.toml: there is no \[\[vesicles\]\]' "$work/empty.toml"
+refused 2 'empty_folder: is a folder without a scene.toml' "$work/empty_folder"
+refused 2 'is an HDF5 file, no scene; .*--restart' "$work/run/checkpoint.h5"
+refused 2 'no_value.toml:2: not valid TOML: .*words and fractions need quotes' "$work/no_value.toml"
+refused 2 'misplaced.toml:2: flow.end: .*did you mean time.end, that is end under \[time\]' "$work/misplaced.toml"
+refused 2 '--set tim.end=3: there is no key tim.end; did you mean time.end' "$scene" --set tim.end=3
+refused 2 '--set: time.step = .1/0.: must be finite and > 0' "$scene" --set time.step=1/0
+refused 2 '3 mistakes:.*several.toml:2: fluid.reynolds_number = -1.*several.toml:4: time.end = -2.*several.toml:5: \[membran\].*did you mean \[membrane\]' \
+  "$work/several.toml"
 refused 2 'vesicles.0.centre.*walls' "$scene" --set 'vesicles.0.centre=[5.5, 0, 0]'
 refused 2 'time.step = 0.5.*time.step <=' "$scene" --set time.step=0.5
 refused 2 'time.end.*must be a number' "$scene" --set time.end=soon
 refused 2 'reduced_volume = 1.5.*in \[0.3, 1\]' "$scene" --set vesicles.0.reduced_volume=1.5
 refused 2 'key=value' "$scene" --set nonsense
-refused 2 'threads' "$scene" --threads 0
+refused 2 '--threads 0: must be from 1 to 1024' "$scene" --threads 0
+refused 2 '--threads many: must be a whole number' "$scene" --threads many
+refused 2 '--plann: there is no such option; did you mean --plan' "$scene" --plann
+refused 2 '--set: its value is missing, what follows is --plan' "$scene" --set --plan
+refused 2 'extra.toml: is one argument more' "$scene" extra.toml
 refused 2 'missing.h5.*cannot be read' "$scene" "${small[@]}" --restart "$work/missing.h5"
 refused 2 'truncated.h5.*truncated' "$scene" "${small[@]}" --restart "$work/truncated.h5"
 refused 2 'text.h5.*not HDF5' "$scene" "${small[@]}" --restart "$work/text.h5"

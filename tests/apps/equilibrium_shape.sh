@@ -17,7 +17,7 @@ refused() {
   shift 2
   message=$("$program" "$@" 2>&1 >"$work/stdout")
   status=$?
-  if [[ $status -ne $code || ! $message =~ $pattern || $message == *"internal error"* || $(wc -l <<<"$message") -gt 3 ]]; then
+  if [[ $status -ne $code || ! $message =~ ^"error: ".*$pattern || $message == *"internal error"* || $(wc -l <<<"$message") -gt 3 ]]; then
     fail "($status, expected $code and '$pattern'): $* -> $message"
   elif [[ $code -eq 2 && -s $work/stdout ]]; then
     fail "printed a result: $*"
@@ -29,6 +29,7 @@ refused() {
 coarse=(--latitudes 16 --branch)
 refused 2 '--branch pear: must be one of prolate, oblate' --branch pear --reduced-volume 0.9
 refused 2 '--branch is required' --reduced-volume 0.9
+refused 2 '--output: there is no such option; did you mean --out' --output here
 refused 2 '--reduced-volume is required' --branch prolate
 refused 2 '--reduced-volume 1.2: .*in \(0, 1\]' --branch prolate --reduced-volume 1.2
 refused 2 '--reduced-volume 0: .*in \(0, 1\]' --branch prolate --reduced-volume 0
@@ -47,10 +48,10 @@ refused 3 'prolate 0.9: not converged: the limit of iterations was reached; afte
 refused 3 'oblate 0.45: not converged: the two caps pass through each other at' \
   "${coarse[@]}" oblate --reduced-volume 0.45
 echo "not a folder" >"$work/file"
-refused 4 "--output $work/file/shapes" "${coarse[@]}" prolate --reduced-volume 0.9 --output "$work/file/shapes"
+refused 4 "--out $work/file/shapes" "${coarse[@]}" prolate --reduced-volume 0.9 --out "$work/file/shapes"
 
 # Results: only JSON on standard output, failures beside shapes, and the files.
-"$program" "${coarse[@]}" oblate --reduced-volume 0.45 0.9:1:0.05 --json --output "$work/shapes" \
+"$program" "${coarse[@]}" oblate --reduced-volume 0.45 0.9:1:0.05 --json --out "$work/shapes" \
   >"$work/result.json" 2>"$work/progress"
 [[ $? -eq 3 ]] || fail "one shape in four not found: expected exit code 3"
 cmp -s "$work/result.json" "$work/shapes/oblate.json" || fail "the summary differs from what was printed"

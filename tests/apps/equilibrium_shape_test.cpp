@@ -7,7 +7,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "command_line.h"
+#include "arguments.h"
+#include "program.h"
 #include "stationarity.h"
 
 namespace equilibrium {

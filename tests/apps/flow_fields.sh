@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # flow_fields.sh FLOW_FIELDS: its tables hold the flow that is known for ratio 1 and the symmetries of the others, bad input
-# gives one clear error and exit code 2.
+# gives one clear error and the documented exit code.
 set -u
 app=$1
 work=$(mktemp -d)
@@ -12,13 +12,15 @@ failures=0
 flow() {
   local name=$1
   shift
-  "$app" --cells 12 "$@" --out "$name" >"$name.txt" || { echo "FAILED: $*"; failures=$((failures + 1)); }
+  "$app" --cells 12 "$@" --out "$name" >"$name.txt" 2>"$name.log" || { echo "FAILED: $*"; failures=$((failures + 1)); }
 }
-flow plain --ratio 1
+flow plain --ratio 1 --quiet
+flow json --ratio 1 --json
+cmp json.txt json/summary.json || { echo "FAILED: --json prints something else than the summary"; failures=$((failures + 1)); }
 flow stokes
 flow five --ratio 5
 for treatment in explicit extrapolated implicit; do
-  flow "$treatment" --ratio 5 --inertia unsteady --treatment "$treatment" --reynolds 0.1 --time-step 0.05 --time 5
+  flow "$treatment" --ratio 5 --inertia unsteady --treatment "$treatment" --reynolds-number 0.1 --time-step 0.05 --end 5
 done
 flow swinging --inertia full --frequency 3 --time-step 0.25
 
@@ -62,14 +64,14 @@ for treatment in ("explicit", "extrapolated", "implicit"):
 assert read("swinging")[1]["time"] == 1
 PYTHON
 
-# refused PATTERN ARGUMENTS...
+# refused EXIT_CODE PATTERN ARGUMENTS...
 refused() {
-  local pattern=$1 message status
-  shift
+  local code=$1 pattern=$2 message status
+  shift 2
   message=$("$app" "$@" 2>&1)
   status=$?
-  if [[ $status -ne 2 || ! $message =~ $pattern || $(wc -l <<<"$message") -ne 1 ]]; then
-    echo "FAILED ($status, expected 2 and '$pattern'): $* -> $message"
+  if [[ $status -ne $code || ! $message =~ ^"error: ".*$pattern || $(wc -l <<<"$message") -ne 1 ]]; then
+    echo "FAILED ($status, expected $code and '$pattern'): $* -> $message"
     failures=$((failures + 1))
   else
     echo "ok: $message"
@@ -77,22 +79,24 @@ refused() {
 }
 
 touch a_file
-refused '--cells 13: must be even' --cells 13
-refused '--cells.*4.*512' --cells 2
-refused '--nosuch' --nosuch
-refused '--treatment.*sideways' --treatment sideways
-refused '--inertia.*some' --inertia some
-refused '--velocity-solver.*magic' --velocity-solver magic
-refused 'viscosity.*is -.*must be finite and > 0' --ratio -20
-refused 'viscosity.*nan' --ratio nan
-refused 'reynolds_number is -1' --reynolds -1
-for step in 0 -1 nan 0.3; do
-  refused '--time 1: must be a positive multiple of the time step' --time-step "$step"
+refused 2 '--cells 13: must be even' --cells 13
+refused 2 '--cells 2: must be from 4 to 512' --cells 2
+refused 2 '--nosuch: there is no such option' --nosuch
+refused 2 '--treatment sideways: must be one of explicit, extrapolated, implicit' --treatment sideways
+refused 2 '--inertia some: must be one of full, none, unsteady' --inertia some
+refused 2 '--velocity-solver magic: must be one of auto, fft, pcg, cholmod' --velocity-solver magic
+refused 2 '--ratio -20: must be finite and > 0' --ratio -20
+refused 2 '--ratio nan: must be finite' --ratio nan
+refused 2 '--reynolds-number -1: must be' --reynolds-number -1
+refused 2 '--reynolds: there is no such option; did you mean --reynolds-number' --reynolds 1
+for step in 0 -1 nan; do
+  refused 2 "--time-step $step: must be finite and > 0" --time-step "$step"
 done
-refused "'fft' cannot solve the stress form" --cells 8 --inertia full --treatment implicit --velocity-solver fft
-refused 'a_file.*cannot be made' --cells 8 --out a_file
+refused 2 '--end 1: must be a positive multiple of the time step 0.3' --time-step 0.3
+refused 2 "'fft' cannot solve the stress form" --cells 8 --inertia full --treatment implicit --velocity-solver fft
+refused 4 'a_file.*cannot be made' --cells 8 --out a_file
 mkdir -p full && ln -sf /dev/full full/plane.csv
-refused 'plane.csv: cannot be written' --cells 8 --out full
+refused 4 'plane.csv: cannot be written there' --cells 8 --out full
 
 echo "$failures failures"
 exit $((failures > 0))

@@ -79,7 +79,7 @@ refused() {
   shift
   message=$("$app" "$@" 2>&1)
   status=$?
-  if [[ $status -ne 2 || ! $message =~ $pattern || $message == *"internal error"* || $(wc -l <<<"$message") -gt 3 ]]; then
+  if [[ $status -ne 2 || ! $message =~ ^"error: ".*$pattern || $message == *"internal error"* || $(wc -l <<<"$message") -gt 3 ]]; then
     echo "FAILED ($status, expected 2 and '$pattern'): $* -> $message"
     failures=$((failures + 1))
   else
@@ -94,12 +94,12 @@ refused_file() {
 
 refused '--surface nosuch: must be one of sphere, ellipsoid, y32, .*or a file' --surface nosuch
 refused '--surface /: must be one of' --surface /
-refused '--latitudes.*4' --latitudes 3
-refused '--latitudes.*many' --latitudes many
-refused '--sampling: 3 not in' --sampling 3
-refused '--formula: flux not in .*cartesian.*christoffel.*paper' --formula flux
-refused '--upsampling: 4 not in .*1.5' --upsampling 4
-refused '--truncated: maybe not in' --truncated maybe
+refused '--latitudes 3: must be from 4 to 256' --latitudes 3
+refused '--latitudes many: must be a whole number' --latitudes many
+refused '--sampling 3: must be 1 or 2' --sampling 3
+refused '--formula flux: must be one of cartesian, christoffel, paper' --formula flux
+refused '--upsampling 4: must be one of 1, 1.5, 2' --upsampling 4
+refused '--truncated maybe: must be one of' --truncated maybe
 refused '--sampling 2: .*--formula cartesian' --sampling 2 --formula paper
 printf '1 1 0.5\n' >short.txt
 refused 'short.txt.*1' --surface short.txt

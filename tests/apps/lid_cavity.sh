@@ -17,7 +17,7 @@ refused() {
   shift 2
   message=$("$program" --quiet "$@" 2>&1 >"$work/stdout")
   status=$?
-  if [[ $status -ne $code || ! $message =~ $pattern || $(wc -l <<<"$message") -gt 2 ]]; then
+  if [[ $status -ne $code || ! $message =~ ^"error: ".*$pattern || $(wc -l <<<"$message") -gt 2 ]]; then
     fail "($status, expected $code and '$pattern'): $* -> $message"
   elif [[ $code -ne 3 && -s $work/stdout ]]; then
     fail "printed a result: $*"
@@ -31,13 +31,13 @@ refused 2 '--cells.*many' --cells many
 refused 2 '--reynolds-number -5: must be finite and > 0' --reynolds-number -5
 refused 2 '--threads 0: must be from 1' --threads 0
 refused 3 '8\^3 cells: not steady at time .*: it changes by' --cells 8 --end 1
-refused 1 'the velocity has passed 100 at time .* smaller --time-step' --cells 12 --time-step 1
+refused 3 'the velocity has passed 100 at time .* smaller --time-step' --cells 12 --time-step 1
 echo "not a folder" >"$work/file"
-refused 4 "--output $work/file/flow" --cells 8 --output "$work/file/flow"
+refused 4 "--out $work/file/flow" --cells 8 --out "$work/file/flow"
 
 quick=(--quiet --tolerance 1e-2)
 for threads in 1 3; do
-  "$program" "${quick[@]}" --cells 8 12 --threads $threads --json --output "$work/$threads" >"$work/$threads.json" ||
+  "$program" "${quick[@]}" --cells 8 12 --threads $threads --json --out "$work/$threads" >"$work/$threads.json" ||
     fail "$threads threads"
 done
 cmp "$work"/{1,3}/mid_plane_12.csv || fail "the number of threads changes the flow"

@@ -132,6 +132,18 @@ TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBit) {
   EXPECT_NE(header.find(",min_distance\n"), std::string::npos) << header;
 }
 
+// Nothing is written again, and nothing moved aside; a run whose summary does not say so yet ends once more.
+TEST_F(RunTest, RestartOfACompleteRunChangesNothing) {
+  const Scene scene = small_scene({"time.end=0.03"});
+  run_scene(scene, at("run"));
+  const std::string summary = text_of(at("run") / "summary.json");
+  EXPECT_EQ(run_scene(scene, at("run"), at("run") / "checkpoint.h5"), RunStatus::completed);
+  EXPECT_EQ(text_of(at("run") / "summary.json"), summary);
+  std::ofstream(at("run") / "summary.json") << "{}";
+  EXPECT_EQ(run_scene(scene, at("run"), at("run") / "checkpoint.h5"), RunStatus::completed);
+  EXPECT_NE(text_of(at("run") / "summary.json").find("\"completed\""), std::string::npos);
+}
+
 TEST_F(RunTest, RestartRefusesAVesicleWithAnotherPropertyOfItsOwn) {
   const auto refusal = [&](const Overrides& overrides) -> std::string {
     Simulation simulation(three_vesicles(overrides));

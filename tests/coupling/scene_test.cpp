@@ -180,6 +180,83 @@ TEST(Scene, RefusesUnknownKeysAndSuggestsOne) {
   expect_parts(message_of(sphere, {"vesicles.3.radius=1"}), {"vesicles.3"});
 }
 
+// A table that is misspelt, a key under another table, a key by the name that others give it.
+TEST(Scene, NamesTheKeyOrTableThatWasMeant) {
+  expect_parts(message_of("[membran]\nsigma0 = 1\n" + sphere), {"test.toml:1: [membran]", "did you mean [membrane]?"});
+  expect_parts(message_of("[Time]\nend = 1\n" + sphere), {"test.toml:1: [Time]", "did you mean [time]?"});
+  const std::string vesicle = message_of("title = \"\"\n[[vesicle]]\nshape = \"sphere\"\n");
+  expect_parts(vesicle, {"test.toml:2: [[vesicle]]", "did you mean [[vesicles]]?"});
+  EXPECT_EQ(vesicle.find("at least one"), std::string::npos) << vesicle;
+  expect_parts(message_of("[flow]\nend = 3\n" + sphere),
+               {"test.toml:2: flow.end", "did you mean time.end, that is end under [time]?"});
+  expect_parts(
+      message_of("reduced_volume = 0.9\n" + sphere),
+      {"test.toml:1: reduced_volume", "vesicles.0.reduced_volume, that is reduced_volume under [[vesicles]]?"});
+  expect_parts(message_of(sphere + sphere + "lattitudes = 16\n"),
+               {"test.toml:5", "did you mean vesicles.1.latitudes?"});
+  expect_parts(message_of("[time]\ndt = 0.1\n" + sphere), {"time.dt", "did you mean time.step?"});
+  expect_parts(message_of(sphere, {"tim.end=3"}),
+               {"--set tim.end=3", "did you mean time.end, that is end under [time]?"});
+  expect_parts(message_of(sphere, {"time=3"}), {"--set time=3", "time is a table of keys"});
+  expect_parts(message_of("time = 3\n" + sphere), {"test.toml:1: time = 3", "headed [time]"});
+  EXPECT_EQ(message_of("[fluid]\nxyzzy = 3\n" + sphere).find("did you mean"), std::string::npos);
+}
+
+TEST(Scene, ListsAllMistakesInTheOrderOfTheirLines) {
+  const std::string text =
+      "[fluid]\nviscosity = 2\nreynolds_number = -1\n[time]\nend = 0\n[[vesicles]]\nshape = \"sphere\"\ncenter = 0\n";
+  EXPECT_EQ(message_of(text, {"mesh.latitudes=7"}),
+            "5 mistakes:\n"
+            "  1. --set: mesh.latitudes = 7: must be in [8, 256]\n"
+            "  2. test.toml:2: fluid.viscosity: there is no such key; did you mean fluid.viscosity_ratio? "
+            "(docs/scene.md lists all)\n"
+            "  3. test.toml:3: fluid.reynolds_number = -1: must be > 0\n"
+            "  4. test.toml:5: time.end = 0: must be > 0\n"
+            "  5. test.toml:8: vesicles.0.center: there is no such key; did you mean vesicles.0.centre? "
+            "(docs/scene.md lists all)");
+  // And those of keys that do not go together.
+  expect_parts(message_of("[time]\nend = 0.001\n[[vesicles]]\nshape = \"prolate\"\n" + sphere + "centre = [9, 0, 0]\n"),
+               {"3 mistakes", "time.end = 0.001", "vesicles.0: a prolate", "vesicles.1.centre = [9, 0, 0]"});
+}
+
+TEST(Scene, OneTableOfVesiclesIsAVesicle) {
+  const Scene scene = parse("[vesicles]\nshape = \"sphere\"\nradius = 0.5\n", {"vesicles.0.sigma0=100"});
+  ASSERT_EQ(scene.vesicles.size(), 1U);
+  EXPECT_EQ(scene.vesicles[0].radius, 0.5);
+  EXPECT_EQ(scene.sigma0(0), 100.0);
+  EXPECT_NE(to_toml(scene).find("\n[[vesicles]]\n"), std::string::npos);
+  expect_parts(message_of("[vesicles]\nshape = \"sphere\"\nradius = 0\n"), {"test.toml:3", "vesicles.0.radius = 0"});
+}
+
+TEST(Scene, OverridesOfTheOnlyVesicleNeedNoNumber) {
+  EXPECT_EQ(parse(sphere, {"vesicles.radius=0.5"}).vesicles[0].radius, 0.5);
+  EXPECT_EQ(parse(sphere, {" vesicles.0.radius = 0.5 "}).vesicles[0].radius, 0.5);
+  const std::string two = sphere + "centre = [3, 0, 0]\n" + sphere;
+  expect_parts(message_of(two, {"vesicles.radius=0.5"}),
+               {"which of the 2 vesicles", "vesicles.0.radius", "vesicles.1.radius"});
+  expect_parts(message_of(two, {"vesicles.2.radius=0.5"}), {"no such vesicle", "vesicles.0 to vesicles.1"});
+  expect_parts(message_of(sphere, {"vesicles.99999999999999999999.radius=1"}),
+               {"no such vesicle", "only one is vesicles.0"});
+}
+
+// What is not given adapts to what is.
+TEST(Scene, DefaultDegreesAlongTheMembraneAreAtMostTheLatitudes) {
+  EXPECT_EQ(parse(sphere).mesh.tangential_degrees, 15);
+  const Scene few = parse(sphere, {"time.markers=euler", "time.step=1/384", "mesh.latitudes=12"});
+  EXPECT_EQ(few.mesh.tangential_degrees, 12);
+  EXPECT_EQ(to_toml(parse(to_toml(few))), to_toml(few));
+  EXPECT_EQ(parse(sphere, {"vesicles.0.latitudes=10"}).mesh.tangential_degrees, 10);
+  expect_parts(
+      message_of(sphere, {"time.markers=euler", "time.step=1/384", "mesh.latitudes=12", "mesh.tangential_degrees=13"}),
+      {"mesh.tangential_degrees = 13", "mesh.latitudes = 12"});
+}
+
+TEST(Scene, SaysOfInfiniteValuesThatTheyMustBeFinite) {
+  expect_parts(message_of("[membrane]\ncapillary_number = inf\n" + sphere),
+               {"test.toml:2", "membrane.capillary_number = inf", "must be finite and > 0"});
+  expect_parts(message_of(sphere, {"time.step=1/0"}), {"time.step = '1/0'", "must be finite and > 0"});
+}
+
 TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
   expect_parts(message_of(sphere, {"time.markers=euler", "time.step=0.2"}), {"time.step = 0.2", "g =", "time.step <="});
   expect_parts(message_of(sphere, {"time.step=100", "time.end=1000", "membrane.sigma0=0"}), {"time.step", "0.25"});
@@ -256,7 +333,8 @@ TEST(Scene, VesiclesHaveTheirOwnPropertiesOrThoseOfAll) {
   EXPECT_EQ(scene.tension_number(), scene.time.step * 500.0 / (4 * scene.spacing()));  // of the stiffest
   EXPECT_EQ(to_toml(parse(to_toml(scene))), to_toml(scene));
   const std::string few = sphere + "latitudes = 10\n";
-  expect_parts(message_of(few, {"time.markers=euler"}), {"mesh.tangential_degrees = 15", "vesicles.0.latitudes = 10"});
+  expect_parts(message_of(few, {"time.markers=euler", "mesh.tangential_degrees=15"}),
+               {"mesh.tangential_degrees = 15", "vesicles.0.latitudes = 10"});
   expect_parts(message_of(sphere, {"time.markers=euler", "vesicles.0.sigma0=1e4"}), {"time.step", "g =", "sigma0 <="});
 }
 
@@ -301,6 +379,9 @@ TEST(Scene, RefusesTimeKeysThatDoNotGoTogether) {
 TEST(Scene, RefusesFilesThatCannotBeReadOrAreNotToml) {
   EXPECT_THROW(load_scene("no/such/file.toml"), SceneError);
   expect_parts(message_of("[domain\ncells = 3\n"), {"test.toml:1", "TOML"});
+  for (const char* value : {"shear", "1/384", "1,5"})
+    expect_parts(message_of(std::string("[time]\nend = ") + value + "\n" + sphere),
+                 {"test.toml:2", "not valid TOML", "words and fractions need quotes"});
 }
 
 TEST(Scene, AllScenesOfTheProjectAreValid) {

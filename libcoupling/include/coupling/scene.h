@@ -187,11 +187,11 @@ struct Scene {
   long steps() const;
 };
 
-/// `name=value` pairs as given with `--set`; keys are dotted, vesicles by number: `vesicles.0.reduced_volume=0.8`.
+/// `name=value` pairs as given with `--set`: `time.end=2`, `vesicles.0.radius=0.8`; the only vesicle needs no number.
 using Overrides = std::vector<std::string>;
 
-/// Reads and checks a scene.
-/// \throws SceneError naming file, line, key, value and what is allowed
+/// Reads and checks a scene; a folder stands for the scene.toml in it.
+/// \throws SceneError of all mistakes, naming file, line, key, value and what is allowed
 Scene load_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
