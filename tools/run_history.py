@@ -198,8 +198,8 @@ def state(run):
         return f"completed at t = {time:g}"
     if status == "running":
         return f"under way, or killed: t = {time:g} of {end:g} at its last checkpoint"
-    reason = run.summary.get("stop_reason")
-    return f"{status} at t = {time:g} of {end:g}" + (f": {reason}" if reason else "")
+    reason = run.summary.get("stop_reason")  # its first line says step, time and cause
+    return textwrap.shorten(reason.splitlines()[0], 150) if reason else f"{status} at t = {time:g} of {end:g}"
 
 
 def settings(run):
@@ -217,7 +217,7 @@ def label(figure, run, notes=()):
     """What was computed on top, how, how it went and what is to be noted at the bottom."""
     title = run.parameter("title") or run.folder.resolve().name
     figure.suptitle(title.replace("^3", "³"), fontsize=12)
-    width = int(19 * figure.get_figwidth())
+    width = int(16 * figure.get_figwidth())
     lines = [textwrap.fill(line, width) for line in (settings(run), "; ".join(note for note in notes if note)) if line]
     figure.supxlabel("\n".join(lines), fontsize=8, color=GREY)
 

@@ -46,8 +46,9 @@ class Folder:
                            "domain.cells": [8] * 3, "domain.periodic": [False] * 3, "domain.mirror": [False] * 3, "time.step": 0.5, "time.end": 1.0,
                            "mesh.latitudes": LATITUDES, "fluid.viscosity_ratio": 1.0, "gravity.acceleration": [0.0, 0.0, 0.0]} | parameters
 
-    def summary(self, status="completed"):
-        self.folder.joinpath("summary.json").write_text(json.dumps({"status": status, "time": self.times[-1], "parameters": self.parameters}))
+    def summary(self, status="completed", reason=None):
+        summary = {"status": status, "stop_reason": reason, "time": self.times[-1], "parameters": self.parameters}
+        self.folder.joinpath("summary.json").write_text(json.dumps(summary))
         return self
 
     def table(self, **columns):
@@ -206,6 +207,11 @@ class PlotRun(unittest.TestCase):
         least = dict((label, value) for value, label in run_references.of(Run(self.run_of(**{"flow.type": "rest"}).summary().folder), run.diagnostics())["energy"])
         self.assertEqual(set(least), {"least of prolates", "least of oblates"})
         self.assertGreater(least["least of oblates"], least["least of prolates"])
+
+    def test_the_state_of_a_run_is_said(self):
+        for status, reason, said in (("completed", None, "completed at t = 1"), ("running", None, "under way, or killed: t = 1 of 1"),
+                                     ("interrupted", None, "interrupted at t = 1 of 1"), ("stopped", "stopped in step 3: why\n  advice", "stopped in step 3: why")):
+            self.assertTrue(run_history.state(Run(self.run_of().summary(status, reason).folder)).startswith(said))
 
     def test_a_tumbling_vesicle_has_a_half_turn_and_a_tank_treading_one_none(self):
         time = np.linspace(0, 20, 201)
