@@ -53,6 +53,7 @@ Scene scene_of(int cells, double ratio, const std::string& markers) {
     scene.membrane.sigma0 = ratio == 1.0 ? 6000.0 : 2000.0;
   } else {
     scene.time.step = 1.0 / (3.0 * cells);
+    scene.membrane.sigma0 = 600.0;
   }
   scene.vesicles.resize(1);
   scene.vesicles[0].reduced_volume = 0.9;

@@ -102,7 +102,7 @@ def draw_redistribution(build, scratch, out):
     titles = {"never": "t = 8, never redistributed", "when_needed": "t = 8, redistributed when needed"}
     for place, (choice, title) in enumerate(titles.items(), start=121):
         folder = scratch / f"wound_{choice}"
-        scene = ROOT / "scenes/deflated_tank_treading.toml"
+        scene = ROOT / "scenes/paper/deflated_tank_treading.toml"
         settings = [f"mesh.redistribute={choice}", "time.end=8", "output.fluid_every=0", "output.vesicle_every=8"]
         options = [word for setting in settings for word in ("--set", setting)]
         run(build / "apps/shear_flow", scene, "--out", folder, "--quiet", *options)

@@ -14,11 +14,11 @@ case_of() { # case_of NAME APP SCENE OPTION...
   "$apps/$2" "scenes/$3.toml" --out "$out/$1" "${@:4}"
 }
 n32=(--set domain.cells=32 --set mesh.latitudes=16 --set time.step=1/192 --set membrane.sigma0=300)
-case_of tank_treading shear_flow tank_treading_coarse
-case_of tank_treading_paper shear_flow tank_treading_coarse --set method.preset=paper
-case_of sphere shear_flow sphere_in_shear
-case_of oblate_32 relaxation relaxation_oblate "${n32[@]}"
-case_of oblate_64 relaxation relaxation_oblate
+case_of tank_treading shear_flow paper/tank_treading_64
+case_of tank_treading_paper shear_flow paper/tank_treading_64 --set method.preset=paper
+case_of sphere shear_flow paper/sphere_in_shear
+case_of oblate_32 relaxation paper/relaxation_oblate "${n32[@]}"
+case_of oblate_64 relaxation paper/relaxation_oblate
 
 scripts/python.sh validation/foundation_table.py "$out" >validation/foundation.md
 cat validation/foundation.md

@@ -14,7 +14,7 @@ import subprocess
 from fractions import Fraction
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-TREADING, TUMBLING = "scenes/tank_treading_coarse.toml", "scenes/tumbling.toml"
+TREADING, TUMBLING = "scenes/paper/tank_treading_64.toml", "scenes/tumbling.toml"
 FOLLOW = {"time.markers": "shape_following"}
 
 

@@ -17,7 +17,7 @@ case_of() { # case_of NAME KERNEL CELLS LATITUDES [more options]
   shift 4
   if [[ $kernel == bspline32 ]]; then degrees=8; fi
   if grep -qs '"status": "completed"' "$out/$name/summary.json"; then return; fi
-  timeout 900 "$apps/shear_flow" scenes/tank_treading.toml --out "$out/$name" --threads 1 --quiet \
+  timeout 900 "$apps/shear_flow" scenes/paper/tank_treading_128.toml --out "$out/$name" --threads 1 --quiet \
     --set "coupling.kernel=$kernel" --set "domain.cells=[$cells,$((cells / 2)),$cells]" --set "mesh.latitudes=$latitudes" \
     --set "mesh.normal_degrees=$degrees" \
     --set 'domain.lower=[-6,0,-6]' --set 'domain.mirror=[false,true,false]' --set vesicles.0.rotation_deg=61.5 \

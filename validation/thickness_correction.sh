@@ -42,23 +42,23 @@ for group in "${groups[@]}"; do
         done ;;
       tank)
         for cells in 48 64 96 128; do
-          case_of tank $cells $corrected tank_treading --set membrane.sigma0=9000 --set time.step=1/24 --set time.end=8 \
+          case_of tank $cells $corrected paper/tank_treading_128 --set membrane.sigma0=9000 --set time.step=1/24 --set time.end=8 \
             --set vesicles.0.rotation_deg=61.5 --set output.diagnostics_every=0.5
         done ;;
       re1) # scenes with the correction are refused at this Reynolds number since they were seen to blow up
         if [[ $corrected == true ]]; then continue; fi
         for cells in 48 64 96; do
-          case_of re1 $cells $corrected tank_treading --set membrane.sigma0=9000 --set time.step=1/48 --set time.end=8 \
+          case_of re1 $cells $corrected paper/tank_treading_128 --set membrane.sigma0=9000 --set time.step=1/48 --set time.end=8 \
             --set vesicles.0.rotation_deg=57 --set output.diagnostics_every=0.5 --set fluid.reynolds_number=1
         done ;;
       ratio5)
         for cells in 48 64 96; do
-          case_of ratio5 $cells $corrected tumbling --set fluid.viscosity_ratio=5 --set time.end=6 \
+          case_of ratio5 $cells $corrected tumbling --set fluid.viscosity_ratio=5 --set time.step=1/48 --set time.end=6 \
             --set vesicles.0.rotation_deg=70 --set output.diagnostics_every=0.5
         done ;;
       tumbling)
         for cells in 48 64 96; do
-          case_of tumbling $cells $corrected tumbling --set time.end=11 --set output.diagnostics_every=1/48
+          case_of tumbling $cells $corrected tumbling --set time.step=1/48 --set time.end=11 --set output.diagnostics_every=1/48
         done ;;
       *) echo "group $group: must be one of modes tank ratio5 re1 tumbling" >&2; exit 2 ;;
     esac

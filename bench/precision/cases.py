@@ -222,7 +222,7 @@ def relaxation_case(quick):
             "time.implicit_tolerance": "1e-6" if quick else "1e-7"} | PLAIN
     grids = (64, 48, 32) if quick else (128, 96, 64)
     return Case(
-        "relaxation", "relaxation of an oblate 3:3:1 to t = 0.5 in fluid at rest, Re = 1", "scenes/relaxation_oblate.toml",
+        "relaxation", "relaxation of an oblate 3:3:1 to t = 0.5 in fluid at rest, Re = 1", "scenes/paper/relaxation_oblate.toml",
         {"domain.lower": [0, 0, 0], "domain.mirror": [True, True, True], "method.preset": "standard", "time.markers": "shape_following",
          "membrane.volume": "projection", "membrane.sigma0": 2000, "time.end": 0.5, "output.diagnostics_every": "1/12",
          "output.vesicle_every": "1/4", "output.fluid_every": 0, "output.checkpoint_every": 0.25},

@@ -107,7 +107,7 @@ void describe_distances(Plan& plan, const Scene& scene, const std::vector<vesicl
 
 // Of the start, of the vesicle that has least. Limits: docs/stability.md, reduced volume and capillary number.
 void describe_deflation(Plan& plan, const Scene& scene, const std::vector<vesicle::VectorField>& markers) {
-  constexpr double least_stable = 0.65, least_stable_in_fast_flow = 0.9, fast_flow = 10.0;
+  constexpr double least_stable = 0.64, least_stable_in_fast_flow = 0.9, fast_flow = 10.0;
   constexpr double quadrature = 2e-3;  // its error on few latitudes
   double least = 1.0, capillary_number = 0.0;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
@@ -118,7 +118,7 @@ void describe_deflation(Plan& plan, const Scene& scene, const std::vector<vesicl
   }
   const bool is_fast = scene.flow.type != FlowType::rest && capillary_number >= fast_flow;
   plan.line("reduced volume", "{:.3g} at the start{}", least,
-            least < least_stable - quadrature ? "  <- WARNING: below 0.65 most runs stop"
+            least < least_stable - quadrature ? "  <- WARNING: below 0.64 most runs stop"
             : is_fast && least < least_stable_in_fast_flow - quadrature
                 ? "  <- WARNING: in a flow at Ca = 10 and more, runs below 0.9 are noisy or stop"
                 : "");
@@ -150,6 +150,8 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("membranes", "{} of {} x {} markers{}, spacing {}", scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", describe_marker_spacing(scene));
   describe_cells_across(plan, scene);
+  if (scene.has_viscosity_contrast())
+    plan.line("error of the grid", "of first order in the spacing where viscosities differ: compare two spacings");
   std::vector<vesicle::VectorField> markers;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
     markers.push_back(initial_markers(scene.vesicles[i], scene.latitudes(i)));

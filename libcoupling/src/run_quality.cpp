@@ -175,11 +175,6 @@ std::vector<std::string> RunQuality::warnings() const {
   };
   warn_below(e.membrane_gap, "another");
   warn_below(e.wall_gap, "a wall");
-  if (scene_.has_viscosity_contrast())
-    all.emplace_back(
-        "with a contrast of viscosities the error of the grid is larger than grid_error and of first order: compare "
-        "two spacings "
-        "(docs/validation.md, figure 8)");
   return all;
 }
 

@@ -56,6 +56,8 @@ void visit_preset(Scene& scene, KeyVisitor& v) {
 void apply_preset(Scene& scene) {
   if (scene.method.preset != Preset::paper) return;
   scene.time.markers = "euler";
+  scene.time.step = 1.0 / 192.0;
+  scene.membrane.sigma0 = 600.0;
   scene.fluid.viscous_treatment = fluid::ViscousTreatment::explicit_;
   scene.membrane.volume = vesicle::VolumeControl::penalty;
   scene.membrane.laplacian = vesicle::LaplacianForm::paper;

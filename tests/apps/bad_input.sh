@@ -75,7 +75,7 @@ refused 2 'extra.toml: is one argument more' "$scene" extra.toml
 refused 2 'missing.h5.*cannot be read' "$scene" "${small[@]}" --restart "$work/missing.h5"
 refused 2 'truncated.h5.*truncated' "$scene" "${small[@]}" --restart "$work/truncated.h5"
 refused 2 'text.h5.*not HDF5' "$scene" "${small[@]}" --restart "$work/text.h5"
-refused 2 'written with fluid.reynolds_number' "$scene" "${small[@]}" --set fluid.reynolds_number=1 \
+refused 2 'written with fluid.reynolds_number' "$scene" "${small[@]}" --set fluid.reynolds_number=0.01 \
   --restart "$work/run/checkpoint.h5"
 refused 2 'flow.type = "custom".*own' "$scene" --set flow.type=custom
 refused 2 'use the app vesicles' "$scenes/relaxation_oblate.toml"

@@ -28,11 +28,11 @@ PYTHON
 }
 
 few=(--set output.checkpoint_every=1/48 --set output.fluid_every=1/48 --set output.vesicle_every=1/48)
-check ratio_1 "$scenes/tank_treading_coarse.toml" "${few[@]}" --set time.end=4/192
+check ratio_1 "$scenes/tank_treading_coarse.toml" "${few[@]}" --set time.end=4/24
 check ratio_20 "$scenes/tumbling.toml" "${few[@]}" --set time.end=3/48
 check adaptive "$scenes/tumbling.toml" "${few[@]}" --set time.end=3/48 --set time.adaptive=true
-check without_output "$scenes/tank_treading_coarse.toml" --set time.end=2/192 --set output.checkpoint_every=0 \
+check without_output "$scenes/tank_treading_coarse.toml" --set time.end=2/24 --set output.checkpoint_every=0 \
   --set output.fluid_every=0 --set output.vesicle_every=0
-check fine "$scenes/tank_treading.toml" --set time.end=2/384
-check large "$scenes/tank_treading.toml" --set domain.cells=128 --set time.end=1/384 --set output.checkpoint_every=0 \
+check fine "$scenes/tank_treading.toml" --set time.end=2/48
+check large "$scenes/tank_treading.toml" --set domain.cells=128 --set time.end=1/48 --set output.checkpoint_every=0 \
   --set output.fluid_every=0 --set output.vesicle_every=0

@@ -15,7 +15,7 @@ from harness.runs import Run
 from harness.tables import table
 
 TITLE = "relaxation of an oblate: convergence and conservation (tables 2, 3)"
-SCENE = "scenes/relaxation_oblate.toml"
+SCENE = "scenes/paper/relaxation_oblate.toml"
 PAPER_2 = {  # velocities u, v, w, pressure, positions
     64: [5.200e-1, 5.233e-1, 4.478e-1, 3.598e-1, 1.012e-2],
     128: [1.007e-1, 1.016e-1, 9.260e-2, 1.230e-1, 2.140e-3],

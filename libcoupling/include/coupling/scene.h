@@ -96,7 +96,7 @@ struct Scene {
   } coupling;
   struct Membrane {
     double capillary_number = 2.5;
-    double sigma0 = 600.0;
+    double sigma0 = 2000.0;
     std::optional<double> g;  ///< dt sigma0/(4 mu h): another way to give sigma0
     vesicle::VolumeControl volume = vesicle::VolumeControl::projection;
     double volume_stiffness = 1e5;       ///< c_v of Eq. (22), for volume = penalty
@@ -129,7 +129,7 @@ struct Scene {
     bool walls = true;        ///< whether walls repel too
   } repulsion;
   struct Time {
-    double step = 1.0 / 192.0;
+    double step = 1.0 / 48.0;
     double end = 8.0;
     std::string markers = "shape_following";
     double relative_tolerance = 0.0;  ///< of markers = arkode
