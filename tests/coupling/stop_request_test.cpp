@@ -18,12 +18,12 @@ Handler handler_of(int signal) {
 
 void of_the_host(int) {}
 
-TEST(StopRequest, PutsBackTheHandlersOfTheHost) {
+TEST(StopRequest, KeepsOrPutsBackTheHandlersOfTheHost) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE}) {
     const Handler before = ::signal(signal, of_the_host);
     {
       const StopRequest request;
-      EXPECT_NE(handler_of(signal), of_the_host);
+      EXPECT_EQ(handler_of(signal) != of_the_host, signal == SIGINT || signal == SIGTERM) << signal;
     }
     EXPECT_EQ(handler_of(signal), of_the_host);
     ::signal(signal, before);
@@ -42,6 +42,15 @@ TEST(StopRequest, HearsOfASignalOnceAndForgetsItForTheNextRun) {
     const StopRequest next;
     EXPECT_EQ(StopRequest::signal(), 0);
   }
+}
+
+TEST(StopRequest, IgnoresThatNobodyReads) {
+  {
+    const StopRequest request;
+    raise(SIGPIPE);
+    EXPECT_EQ(StopRequest::signal(), 0);
+  }
+  EXPECT_EQ(handler_of(SIGPIPE), SIG_DFL);
 }
 
 TEST(StopRequest, LeavesAloneWhatNohupHasSwitchedOff) {

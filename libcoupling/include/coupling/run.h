@@ -26,11 +26,12 @@ enum class RunStatus { completed, interrupted, terminated, hung_up, user_signal_
 
 /// Runs `simulation` to the end of its scene: steps, progress, diagnostics, snapshots, checkpoints, summary. Results
 /// already in the directory are moved aside, or continued when the checkpoint is the directory's own. While it runs, the
-/// directory is its alone: another run is refused. The signals of RunStatus and limits.wall_time end the run after the step under
-/// way, with a checkpoint (unless output.checkpoint_every is 0), and say how to go on. With limits.on_blowup = "reduce_step" a
-/// step that cannot be taken sends the run back to its last checkpoint, from which it goes on with half the step.
-/// \throws SceneError for a checkpoint of another scene; FileError when a file cannot be read or written, or another
-/// run has the directory; SimulationStopped, with step, time, cause and last checkpoint in its message, when the run cannot go on
+/// directory is its alone: another run is refused. The signals of RunStatus and limits.wall_time end the run after the step
+/// under way, with a checkpoint (unless output.checkpoint_every is 0), and it says how to go on; SIGHUP, SIGUSR1 and SIGUSR2 only
+/// where the host program neither handles nor ignores them. With limits.on_blowup = "reduce_step" a step that cannot be taken
+/// sends the run back to its last checkpoint, from which it goes on with half the step.
+/// \throws SceneError for a checkpoint of another scene; FileError when a file cannot be read or written, or another run has
+/// the directory; SimulationStopped, with step, time, cause and last checkpoint in its message, when the run cannot go on
 RunStatus run(Simulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.
