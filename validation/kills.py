@@ -102,6 +102,7 @@ class Chain:
         self.moments[f"{kind}, {'before its first row' if written.steps_of_table(self.folder) <= before else 'under way'}"] += 1
         for part in sorted(self.folder.rglob("*.part")):
             name = "a snapshot" if part.parent.name == "snapshots" else part.stem
+            name = name.rpartition(".")[0] if name.startswith("run.lock.") else name  # of a name that is not used yet
             self.moments[f"within the writing of {name}"] += 1
         self.problems += [f"{self.variant}, kill {self.kills}: {p}" for p in written.problems(self.folder)]
 

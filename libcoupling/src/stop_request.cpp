@@ -29,18 +29,18 @@ void request(int signal) {
 
 struct Handled {
   int signal;
-  bool even_if_ignored;
+  bool always;  ///< else only where nobody has said what to do with it
   struct sigaction before;
 };
 
 std::mutex mutex;  // over what follows
 int alive = 0;
 std::array<Handled, 6> handled{Handled{SIGINT, true, {}},   Handled{SIGTERM, true, {}},  Handled{SIGHUP, false, {}},
-                               Handled{SIGUSR1, false, {}}, Handled{SIGUSR2, false, {}}, Handled{SIGPIPE, true, {}}};
+                               Handled{SIGUSR1, false, {}}, Handled{SIGUSR2, false, {}}, Handled{SIGPIPE, false, {}}};
 
 void set(Handled& entry) {
   sigaction(entry.signal, nullptr, &entry.before);
-  if (entry.before.sa_handler == SIG_IGN && !entry.even_if_ignored) return;
+  if (!entry.always && ((entry.before.sa_flags & SA_SIGINFO) != 0 || entry.before.sa_handler != SIG_DFL)) return;
   struct sigaction action {};
   sigemptyset(&action.sa_mask);
   action.sa_handler = entry.signal == SIGPIPE ? SIG_IGN : request;

@@ -3,9 +3,10 @@
 namespace vesiflow::coupling {
 
 /// While one lives, Ctrl-C (SIGINT), SIGTERM, SIGHUP, SIGUSR1 and SIGUSR2 are requests to stop after the step under way; the same
-/// one again, two seconds later, kills as usual. SIGHUP, SIGUSR1 and SIGUSR2 that the process ignores (nohup) stay ignored. SIGPIPE is
-/// ignored: that nobody reads the progress any more is no reason to end. Several may live at once, in threads; with the last
-/// of them all signals are what they were.
+/// one again, two seconds later, kills as usual. SIGPIPE is ignored: that
+/// nobody reads the progress any more is no reason to end. But for SIGINT and SIGTERM this holds only where the process does what is
+/// usual: what nohup has switched off, or a host program handles itself, stays so. Several may live at once, in threads; with the
+/// last of them all signals are what they were.
 class StopRequest {
  public:
   StopRequest();

@@ -18,12 +18,12 @@ Handler handler_of(int signal) {
 
 void of_the_host(int) {}
 
-TEST(StopRequest, PutsBackTheHandlersOfTheHost) {
+TEST(StopRequest, KeepsOrPutsBackTheHandlersOfTheHost) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE}) {
     const Handler before = ::signal(signal, of_the_host);
     {
       const StopRequest request;
-      EXPECT_NE(handler_of(signal), of_the_host);
+      EXPECT_EQ(handler_of(signal) != of_the_host, signal == SIGINT || signal == SIGTERM) << signal;
     }
     EXPECT_EQ(handler_of(signal), of_the_host);
     ::signal(signal, before);
@@ -32,6 +32,7 @@ TEST(StopRequest, PutsBackTheHandlersOfTheHost) {
 
 TEST(StopRequest, HearsOfASignalOnceAndForgetsItForTheNextRun) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2}) {
+    const Handler before = ::signal(signal, SIG_DFL);
     {
       const StopRequest request;
       EXPECT_EQ(StopRequest::signal(), 0);
@@ -39,9 +40,23 @@ TEST(StopRequest, HearsOfASignalOnceAndForgetsItForTheNextRun) {
       raise(signal);  // as timeout(1) does
       EXPECT_EQ(StopRequest::signal(), signal);
     }
-    const StopRequest next;
+    {
+      const StopRequest next;
+      EXPECT_EQ(StopRequest::signal(), 0);
+    }
+    ::signal(signal, before);
+  }
+}
+
+TEST(StopRequest, IgnoresThatNobodyReads) {
+  const Handler before = ::signal(SIGPIPE, SIG_DFL);
+  {
+    const StopRequest request;
+    raise(SIGPIPE);
     EXPECT_EQ(StopRequest::signal(), 0);
   }
+  EXPECT_EQ(handler_of(SIGPIPE), SIG_DFL);
+  ::signal(SIGPIPE, before);
 }
 
 TEST(StopRequest, LeavesAloneWhatNohupHasSwitchedOff) {

@@ -28,9 +28,10 @@ enum class RunStatus { completed, interrupted, terminated, hung_up, user_signal_
 
 /// Runs `simulation` to the end of its scene: steps, progress, diagnostics, snapshots, checkpoints, summary. Results
 /// already in the directory are moved aside, or continued when the checkpoint is the directory's own. While it runs, the
-/// directory is its alone: another run is refused. The signals of RunStatus and limits.wall_time end the run after the step under
-/// way, with a checkpoint (unless output.checkpoint_every is 0), and say how to go on. With limits.on_blowup = "reduce_step" a
-/// step that cannot be taken sends the run back to its last checkpoint, from which it goes on with half the step.
+/// directory is its alone: another run is refused. The signals of RunStatus and limits.wall_time end the run after the step
+/// under way, with a checkpoint (unless output.checkpoint_every is 0), and it says how to go on; SIGHUP, SIGUSR1 and SIGUSR2 only
+/// where the host program neither handles nor ignores them. With limits.on_blowup = "reduce_step" a step that cannot be taken
+/// sends the run back to its last checkpoint, from which it goes on with half the step.
 /// A run that starts from another one keeps its start in start.h5, a checkpoint from which it can be repeated.
 /// \throws SceneError for a checkpoint of another scene, or a run to start from that does not fit; FileError when a file cannot
 /// be read or written, or another run has the directory; SimulationStopped, with step, time, cause and last checkpoint in its
