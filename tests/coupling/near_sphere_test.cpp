@@ -67,7 +67,7 @@ TEST(NearSphere, StartsQuietlyAcrossTheFlow) {
 }
 
 TEST(NearSphere, ImplicitMarkersAgree) {
-  for (const double deflation : {1e-3, 1e-4, 1e-7}) {
+  for (const double deflation : {1e-3, 1e-4}) {
     const vesicle::Diagnostics implicit = last_of(nearly_a_sphere(1.0 - deflation, {"time.markers=implicit"}));
     const vesicle::Diagnostics d = last_of(nearly_a_sphere(1.0 - deflation));
     EXPECT_NEAR(implicit.area_error, d.area_error, 3e-5) << deflation;
@@ -76,7 +76,7 @@ TEST(NearSphere, ImplicitMarkersAgree) {
 }
 
 TEST(NearSphere, HoldsWithAContrastOfViscosities) {
-  for (const double deflation : {1e-3, 1e-4, 1e-7, 0.0})
+  for (const double deflation : {1e-4, 1e-7})
     EXPECT_LT(last_of(nearly_a_sphere(1.0 - deflation, {"fluid.viscosity_ratio=5"})).area_error, 4e-3) << deflation;
 }
 
