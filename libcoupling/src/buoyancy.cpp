@@ -1,9 +1,15 @@
 #include "coupling/buoyancy.h"
 
+#include <stdexcept>
+#include <string>
+
 namespace vesiflow::coupling {
 
 void add_buoyancy(const vesicle::Surface& surface, const vesicle::Vector3& weight, vesicle::VectorField& force) {
   const vesicle::VectorField& x = surface.positions();
+  if (force.rows() != x.rows())
+    throw std::invalid_argument("buoyancy: the force has " + std::to_string(force.rows()) +
+                                " rows: must be one per marker, " + std::to_string(x.rows()));
   const vesicle::ScalarField& area = surface.area_weight();
   vesicle::Vector3 centre;
   for (int axis = 0; axis < 3; ++axis) centre(axis) = (x.col(axis) * area).sum() / surface.area();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "fluid/operators.h"
@@ -51,6 +52,7 @@ void Indicator::add(std::size_t membrane, const vesicle::Surface& surface, doubl
 }
 
 void Indicator::solve(fluid::Field<fluid::Cell>& field) {
+  if (!(field.grid() == jump_.grid())) throw std::invalid_argument("indicator: the field is on another grid");
   repeat_last_faces(jump_);
   fluid::divergence(jump_, field);
   solver_->solve(std::as_const(field).unknowns(), field.unknowns());

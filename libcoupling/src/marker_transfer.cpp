@@ -43,6 +43,17 @@ TransferAxis transfer_axis(const fluid::Grid& grid, int axis, bool across, Delta
           wall_distance(kernel)};
 }
 
+void check_size(const char* array, Eigen::Index size, Eigen::Index markers) {
+  if (size == markers) return;
+  throw std::invalid_argument("marker transfer: " + std::string(array) + " has " + std::to_string(size) +
+                              " rows: must be one per marker of the last update, " + std::to_string(markers));
+}
+
+void check_grid(const char* field, const fluid::FaceVector& values, const fluid::Grid& grid) {
+  if (values.x.grid() == grid && values.y.grid() == grid && values.z.grid() == grid) return;
+  throw std::invalid_argument("marker transfer: " + std::string(field) + " is on another grid");
+}
+
 }  // namespace
 
 std::array<bool, 3> mirrors_crossed(const fluid::Grid& grid, const Eigen::Ref<const vesicle::VectorField>& positions) {
@@ -69,23 +80,31 @@ MarkerTransfer::MarkerTransfer(MarkerTransfer&&) noexcept = default;
 MarkerTransfer& MarkerTransfer::operator=(MarkerTransfer&&) noexcept = default;
 
 void MarkerTransfer::update(const Eigen::Ref<const vesicle::VectorField>& positions) {
+  markers_ = 0;
   const Loops::Refusal refusal = loops_->update(positions);
   if (refusal.marker >= 0)
     refuse_marker(refusal.marker, refusal.axis, positions(refusal.marker, refusal.axis), wall_distance(), grid_);
+  markers_ = positions.rows();
 }
 
 void MarkerTransfer::spread(const vesicle::VectorField& force, const vesicle::ScalarField& area_weight,
                             fluid::FaceVector& density) {
+  check_size("the force", force.rows(), markers_);
+  check_size("the area weight", area_weight.rows(), markers_);
+  check_grid("the force density", density, grid_);
   const Box& box = loops_->box();
   if (std::ranges::find(spread_boxes_, box) == spread_boxes_.end()) spread_boxes_.push_back(box);
   loops_->spread(force, area_weight, per_volume_, density.points());
 }
 
 void MarkerTransfer::interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const {
+  check_size("the marker velocity", marker_velocity.rows(), markers_);
+  check_grid("the velocity", velocity, grid_);
   loops_->interpolate(velocity.points(), marker_velocity);
 }
 
 void MarkerTransfer::clear(fluid::FaceVector& density) {
+  check_grid("the force density", density, grid_);
   for (const fluid::View& component : density.points())
     for (const Box& box : spread_boxes_) clear_box(box, component);
   spread_boxes_.clear();

@@ -22,6 +22,20 @@ RepulsionParameters checked(const RepulsionParameters& parameters) {
   return parameters;
 }
 
+void check(std::span<const RepelledMembrane> membranes, bool with_forces) {
+  for (std::size_t i = 0; i < membranes.size(); ++i) {
+    const RepelledMembrane& membrane = membranes[i];
+    if (membrane.positions == nullptr || membrane.area_weight == nullptr || (with_forces && membrane.force == nullptr))
+      throw std::invalid_argument(fmt::format("repulsion: membrane {} lacks an array", i));
+    const Eigen::Index markers = membrane.positions->rows(), areas = membrane.area_weight->rows();
+    const Eigen::Index forces = with_forces ? membrane.force->rows() : markers;
+    if (areas != markers || forces != markers)
+      throw std::invalid_argument(
+          fmt::format("repulsion: membrane {} has {} positions, {} areas and {} forces: must be as many", i, markers,
+                      areas, forces));
+  }
+}
+
 // visit(marker, axis, direction away from the wall, 1 - d/R) for every marker nearer to a wall than R.
 template <class Visit>
 void for_each_marker_near_a_wall(const fluid::Grid& grid, double range, const vesicle::VectorField& markers,
@@ -106,6 +120,7 @@ Repulsion::Repulsion(const fluid::Grid& grid, const RepulsionParameters& paramet
 Repulsion::~Repulsion() = default;
 
 void Repulsion::add_forces(std::span<const RepelledMembrane> membranes) {
+  check(membranes, true);
   const double range = parameters_.range, strength = parameters_.strength;
   const double per_range_squared = 1.0 / (range * range), factor = strength / (2.0 * std::numbers::pi);
   const auto push = [&](const vesicle::Vector3& r, double distance) -> Eigen::Array<double, 1, 3> {
@@ -133,6 +148,7 @@ void Repulsion::add_forces(std::span<const RepelledMembrane> membranes) {
 }
 
 double Repulsion::energy(std::span<const RepelledMembrane> membranes) {
+  check(membranes, false);
   const double range = parameters_.range, strength = parameters_.strength;
   double sum = 0.0;
   const auto add = [&](double share) {

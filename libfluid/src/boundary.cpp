@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "message.h"
+#include "same_grid.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -207,6 +208,7 @@ void WallVelocity::balance_flux() {
 }
 
 void WallVelocity::set_normal_faces(FaceVector& u) const {
+  require_same_grid("set_normal_faces", is_on(grid_, u));
   const auto fields = u.points();
   for (int axis = 0; axis < 3; ++axis) {
     const View& field = fields[axis];
@@ -228,6 +230,7 @@ void WallVelocity::set_normal_faces(FaceVector& u) const {
 // Axis x first, then y, then z: each sweep also covers the ghosts that earlier ones have set, so that edges and corners
 // are filled too.
 void WallVelocity::fill_ghosts(FaceVector& u) const {
+  require_same_grid("fill_ghosts", is_on(grid_, u));
   const auto fields = u.points();
   for (int component = 0; component < 3; ++component) {
     const View& field = fields[component];
@@ -261,6 +264,7 @@ void WallVelocity::fill_wall_ghosts(const Plane& wall, const View& field) const 
 }
 
 void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
+  require_same_grid("add_diffusion", is_on(grid_, rhs));
   const auto fields = rhs.points();
   for (const Plane& wall : planes_) {
     if (!grid_.has_wall(wall.axis, wall.side)) continue;

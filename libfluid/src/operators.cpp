@@ -5,6 +5,7 @@
 
 #include "convection_row.h"
 #include "planes.h"
+#include "same_grid.h"
 
 namespace vesiflow::fluid {
 namespace {
@@ -29,6 +30,7 @@ struct CellDivergence {
 }  // namespace
 
 void gradient(const Field<Cell>& p, FaceVector& g) {
+  require_same_grid("gradient", is_on(p.grid(), g));
   const auto fields = g.points();
   const ConstView cells = p.points();
   for_each_plane(cells.extent, [&](int k) {
@@ -47,6 +49,7 @@ void gradient(const Field<Cell>& p, FaceVector& g) {
 }
 
 void divergence(const FaceVector& u, Field<Cell>& d) {
+  require_same_grid("divergence", is_on(d.grid(), u));
   const CellDivergence cell_divergence(u);
   for_each_plane(d.extent(), [&](int k) {
     for (int j = 0; j < d.extent(1); ++j) {
@@ -61,6 +64,7 @@ void divergence(const FaceVector& u, Field<Cell>& d) {
 }
 
 double max_divergence(const FaceVector& u) {
+  require_same_grid("max_divergence", is_on(u.grid(), u));
   const CellDivergence cell_divergence(u);
   const auto& n = u.grid().cells;
   return max_over_planes(n, [&](int k) {
@@ -110,6 +114,7 @@ void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int com
 }
 
 void convection(const FaceVector& u, FaceVector& n) {
+  require_same_grid("convection", is_on(u.grid(), u) && is_on(u.grid(), n));
   const auto fields = u.points();
   const auto results = n.points();
   for_each_plane(u.grid().cells, [&](int k) {

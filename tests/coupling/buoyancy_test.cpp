@@ -63,5 +63,11 @@ TEST(Buoyancy, DoesNotDependOnThePlace) {
   EXPECT_LT((a - b).abs().maxCoeff(), 1e-9);
 }
 
+TEST(Buoyancy, RefusesAForceOfAnotherSize) {
+  const vesicle::Surface surface = prolate_at({0, 0, 0});
+  VectorField force = VectorField::Zero(surface.positions().rows() - 1, 3);
+  EXPECT_THROW(add_buoyancy(surface, {0.0, 0.0, 1.0}, force), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace vesiflow::coupling

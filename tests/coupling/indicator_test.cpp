@@ -174,5 +174,11 @@ TEST(Indicator, GivesTheSameBitsForEveryNumberOfThreadsAndAllocatesNothing) {
   EXPECT_EQ(vesiflow::test::allocation_count(), allocations);
 }
 
+TEST(Indicator, RefusesAFieldOnAnotherGrid) {
+  const fluid::Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), other({0, 0, 0}, {1, 1, 1}, {8, 8, 4});
+  Field field(other);
+  EXPECT_THROW(Indicator(grid, 1).solve(field), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace vesiflow::coupling

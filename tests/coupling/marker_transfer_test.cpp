@@ -160,5 +160,29 @@ TEST(MarkerTransfer, RefusesMarkersAtWallsAndNonFiniteOnes) {
   EXPECT_THROW(transfer.update(markers), SimulationStopped);
 }
 
+// Arrays of a wrong size would be read and written out of their bounds.
+TEST(MarkerTransfer, ArraysOfAWrongSizeAreRefused) {
+  const int markers = 300;
+  MarkerTransfer transfer(grid);
+  const fluid::Grid other({-1.0, -2.0, 0.0}, {2.0, 1.5, 2.5}, {19, 24, 16});
+  fluid::FaceVector field(grid), on_other_grid(other);
+  VectorField vectors = VectorField::Zero(markers, 3), few_vectors = VectorField::Zero(markers - 1, 3);
+  const ScalarField areas = ScalarField::Ones(markers), few_areas = ScalarField::Ones(markers - 1);
+  EXPECT_THROW(transfer.spread(vectors, areas, field), std::invalid_argument) << "before any update";
+  transfer.update(random_markers(markers));
+  EXPECT_NO_THROW(transfer.spread(vectors, areas, field));
+  EXPECT_THROW(transfer.spread(few_vectors, areas, field), std::invalid_argument);
+  EXPECT_THROW(transfer.spread(vectors, few_areas, field), std::invalid_argument);
+  EXPECT_THROW(transfer.spread(vectors, areas, on_other_grid), std::invalid_argument);
+  EXPECT_THROW(transfer.clear(on_other_grid), std::invalid_argument);
+  EXPECT_NO_THROW(transfer.interpolate(field, vectors));
+  EXPECT_THROW(transfer.interpolate(field, few_vectors), std::invalid_argument);
+  EXPECT_THROW(transfer.interpolate(on_other_grid, vectors), std::invalid_argument);
+  VectorField outside = random_markers(markers);
+  outside(7, 1) = 10.0;
+  EXPECT_THROW(transfer.update(outside), SimulationStopped);
+  EXPECT_THROW(transfer.interpolate(field, vectors), std::invalid_argument) << "after an update that was refused";
+}
+
 }  // namespace
 }  // namespace vesiflow::coupling

@@ -203,5 +203,18 @@ TEST(Repulsion, RefusesParametersOutOfRangeByName) {
   EXPECT_THROW(Repulsion(walls, {0.1, std::nan("")}, 8), std::invalid_argument);
 }
 
+TEST(Repulsion, RefusesArraysOfDifferentSizes) {
+  VectorField positions = VectorField::Random(5, 3), force = VectorField::Zero(5, 3), few = VectorField::Zero(4, 3);
+  const ScalarField areas = ScalarField::Ones(5), few_areas = ScalarField::Ones(4);
+  Repulsion repulsion(walls, {0.2, 1.0}, 5);
+  const auto add = [&](const RepelledMembrane& membrane) { repulsion.add_forces({&membrane, 1}); };
+  EXPECT_NO_THROW(add({&positions, &areas, &force}));
+  EXPECT_THROW(add({&positions, &few_areas, &force}), std::invalid_argument);
+  EXPECT_THROW(add({&positions, &areas, &few}), std::invalid_argument);
+  EXPECT_THROW(add({&positions, &areas, nullptr}), std::invalid_argument);
+  const RepelledMembrane without_force{&positions, &areas, nullptr};
+  EXPECT_NO_THROW(repulsion.energy({&without_force, 1}));
+}
+
 }  // namespace
 }  // namespace vesiflow::coupling

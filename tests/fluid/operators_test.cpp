@@ -96,5 +96,21 @@ TEST(Operators, ConvectionOfALinearFlowIsExact) {
   }
 }
 
+// A field of fewer cells would be read and written out of its bounds.
+TEST(Operators, FieldsOfDifferentGridsAreRefused) {
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), coarse({0, 0, 0}, {1, 1, 1}, {8, 8, 4});
+  Field<Cell> cells(coarse);
+  FaceVector faces(grid), coarse_faces(coarse), mixed(Field<FaceX>{grid}, Field<FaceY>{grid}, Field<FaceZ>{coarse});
+  EXPECT_THROW(gradient(cells, faces), std::invalid_argument);
+  EXPECT_THROW(divergence(faces, cells), std::invalid_argument);
+  EXPECT_THROW(max_divergence(mixed), std::invalid_argument);
+  EXPECT_THROW(convection(faces, coarse_faces), std::invalid_argument);
+  const WallVelocity walls(
+      grid, [](const Vector3&, double) { return Vector3{}; }, true);
+  EXPECT_THROW(walls.set_normal_faces(coarse_faces), std::invalid_argument);
+  EXPECT_THROW(walls.fill_ghosts(mixed), std::invalid_argument);
+  EXPECT_THROW(walls.add_diffusion(1.0, coarse_faces), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace vesiflow::fluid

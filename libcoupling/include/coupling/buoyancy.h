@@ -9,6 +9,7 @@ namespace vesiflow::coupling {
 /// weight inside is the gradient of a pressure, so all it does is this jump of pressure across the membrane (another C changes the
 /// pressure inside by a constant); its total is weight times the volume, by the divergence theorem. The difference
 /// in inertia is left out, as it is in the fluid, whose density is one.
+/// \throws std::invalid_argument unless `force` has a row for each marker
 void add_buoyancy(const vesicle::Surface& surface, const vesicle::Vector3& weight, vesicle::VectorField& force);
 
 }  // namespace vesiflow::coupling

@@ -39,6 +39,7 @@ class Indicator {
 
   /// Sets `field`, ghosts not included, to c of the membranes added since the last time. Allocates nothing after the first
   /// time; the same bits for any number of threads.
+  /// \throws std::invalid_argument if the field is on another grid
   void solve(fluid::Field<fluid::Cell>& field);
 
   /// Forgets the membranes added since the last time.

@@ -52,13 +52,16 @@ class MarkerTransfer {
   void update(const Eigen::Ref<const vesicle::VectorField>& positions);
 
   /// Adds the force density of `force` (per membrane area, markers x 3) times `area_weight` (dA per marker).
+  /// \throws std::invalid_argument unless both have a row for each marker of the last update and `density` is on the grid
   void spread(const vesicle::VectorField& force, const vesicle::ScalarField& area_weight, fluid::FaceVector& density);
 
   /// Velocity at the markers (markers x 3). Reads points of the box only, no ghosts.
+  /// \throws std::invalid_argument unless `marker_velocity` has a row for each marker and `velocity` is on the grid
   void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
 
   /// Sets `density` to zero in the bounding box of the markers of every `spread` since the last `clear`, including what other
   /// transfers have added there.
+  /// \throws std::invalid_argument if `density` is on another grid
   void clear(fluid::FaceVector& density);
 
   DeltaKernel kernel() const { return kernel_; }
@@ -82,6 +85,7 @@ class MarkerTransfer {
   fluid::Grid grid_;
   double per_volume_;  // the inverse volume of a cell, halved for each mirror plane that the markers lie across
   std::unique_ptr<Loops> loops_;
+  Eigen::Index markers_ = 0;       // of the last update; none while it was refused
   std::vector<Box> spread_boxes_;  // since the last clear
 };
 

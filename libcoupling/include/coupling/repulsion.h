@@ -37,10 +37,14 @@ class Repulsion {
   Repulsion(const fluid::Grid& grid, const RepulsionParameters& parameters, Eigen::Index largest_markers);
   ~Repulsion();
 
-  /// Adds the forces. The result does not depend on the number of threads, and on the order of membranes only by round-off.
+  /// Adds the forces.
+  /// \throws std::invalid_argument for a null array, or arrays of one membrane with different numbers of rows
+  ///
+  /// The result does not depend on the number of threads, and on the order of membranes only by round-off.
   void add_forces(std::span<const RepelledMembrane> membranes);
 
-  /// E; forces are not touched.
+  /// E; forces are not touched, and may be null.
+  /// \throws std::invalid_argument as add_forces()
   double energy(std::span<const RepelledMembrane> membranes);
 
  private:

@@ -45,6 +45,8 @@ class WallVelocity {
   // Net outward flux of the sampled data, before the remainder was taken out.
   double net_flux() const { return net_flux_; }
 
+  // The three that follow throw std::invalid_argument for a field on another grid.
+  //
   // Sets the faces on walls and mirrors, and on periodic axes the last face, which is the first.
   void set_normal_faces(FaceVector& u) const;
   // Sets all ghosts from the walls, the mirrors and the points inside; the faces of set_normal_faces() must have been

@@ -3,7 +3,8 @@
 // Face results are set on the unknowns (inner faces, and on periodic axes all but the last, which is the first again);
 // faces on walls and mirrors and ghosts are left as they are. On a grid with mirrors all results are those on the whole
 // box. All
-// loops are parallel, and give the same bits for every number of threads.
+// loops are parallel, and give the same bits for every number of threads. Fields on different grids raise
+// std::invalid_argument.
 #pragma once
 
 #include "fluid/field.h"
