@@ -11,7 +11,6 @@
 #include <random>
 #include <regex>
 #include <sstream>
-#include <vector>
 
 #include "coupling/errors.h"
 
@@ -106,9 +105,8 @@ TEST_F(FolderLockTest, OneOfManyProcessesThatStartAtOnceGetsIt) {
     int go[2], done[2];
     ASSERT_EQ(pipe(go), 0);
     ASSERT_EQ(pipe(done), 0);
-    std::vector<pid_t> children;
     for (int i = 0; i < 24; ++i)
-      children.push_back(start([&] {
+      start([&] {
         char byte = 0;
         close(go[1]);
         (void)!read(go[0], &byte, 1);  // until all are there
@@ -120,7 +118,7 @@ TEST_F(FolderLockTest, OneOfManyProcessesThatStartAtOnceGetsIt) {
         } catch (const FileError&) {
           return 1;
         }
-      }));
+      });
     close(go[0]);
     close(go[1]);
     int winners = 0, losers = 0, status = 0;
