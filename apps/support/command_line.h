@@ -34,6 +34,8 @@ class CommandLine : public CLI::App {
   bool read(char** argv, const std::vector<std::string>& arguments);
 
   int threads() const { return threads_; }
+  /// Whether --threads was given.
+  bool chooses_threads() const { return get_option("--threads")->count() > 0; }
   bool is_quiet() const { return quiet_; }
 
  private:

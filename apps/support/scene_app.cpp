@@ -119,8 +119,7 @@ std::filesystem::path directory_of(const Arguments& arguments) {
 // What of the command line is not in a checkpoint.
 std::vector<std::string> command_to_repeat(const char* program, const CommandLine& command_line) {
   std::vector<std::string> words{program};
-  if (command_line.threads() != omp_get_num_procs())
-    words.insert(words.end(), {"--threads", std::to_string(command_line.threads())});
+  if (command_line.chooses_threads()) words.insert(words.end(), {"--threads", std::to_string(command_line.threads())});
   if (command_line.is_quiet()) words.emplace_back("--quiet");
   return words;
 }
@@ -140,7 +139,7 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   const std::filesystem::path directory = directory_of(arguments);
   if (arguments.plan) {
     if (const std::string reason = put_out(describe_plan(scene, command_line.threads(), directory)); !reason.empty())
-      throw FileError("standard output: the plan cannot be written: " + reason);
+      throw vesiflow::coupling::FileError("standard output: the plan cannot be written: " + reason);
     return exit_code::success;
   }
 
