@@ -76,6 +76,7 @@ class Run {
   void restore();
   bool is_complete() const;
   void start();
+  std::string scene_text() const;
   void rewind_files();
   void log_redistributions();
   void record(bool last);
@@ -161,8 +162,16 @@ void Run::start() {
   vesicle_snapshots_.emplace(directory_, vesicle_snapshots(simulation_));
   fluid_snapshots_.emplace(directory_, fluid_snapshots(simulation_));
   if (own) rewind_files();
-  write_text_atomically(directory_ / "scene.toml", to_toml(simulation_.scene()));
+  write_text_atomically(directory_ / "scene.toml", scene_text());
   write_summary(directory_, options_, simulation_, record_);
+}
+
+std::string Run::scene_text() const {
+  const char* const remark =
+      "# This run started from another one, which summary.json names: its vesicles and its velocity were those, not "
+      "what\n"
+      "# follows. start.h5 repeats it.\n";
+  return (simulation_.started_from() != nullptr ? remark : "") + to_toml(simulation_.scene());
 }
 
 // A run that went on after its last checkpoint has left rows and snapshots that will be computed again.

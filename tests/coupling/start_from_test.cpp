@@ -146,6 +146,8 @@ TEST_F(StartFrom, RestartedAndRepeatedRunsHaveTheSameBits) {
     EXPECT_NE(text_of(folder_ / name / "summary.json").find("\"run\": \"" + other.start->run), std::string::npos);
     EXPECT_EQ(text_of(folder_ / name / "diagnostics.csv"), text_of(folder_ / "whole/diagnostics.csv"));
   }
+  EXPECT_TRUE(text_of(folder_ / "whole/scene.toml").starts_with("# This run started from another one"));
+  EXPECT_NO_THROW(load_scene(folder_ / "whole/scene.toml"));
   EXPECT_NE(text_of(first_ / "summary.json").find("\"started_from\": null"), std::string::npos);
 }
 
