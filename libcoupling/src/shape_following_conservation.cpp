@@ -11,8 +11,8 @@ namespace {
 using vesicle::Surface;
 using vesicle::VectorField;
 
-// Mean strain that is held at the area A0, over the excess area (see the class). Where it ends, the strain is the cube root of this times that of
-// an elastic sphere in the same flow: 1.6 times.
+// Mean strain that is held at the area A0, over the excess area (see the class). From 1, the elastic sphere, to 10 the choice is flat (docs/adr/0006):
+// where it ends, the strain is the cube root of this times that of an elastic sphere.
 constexpr double held_strain_per_excess = 4.0;
 // Root mean square of the normal velocity of a sphere of equal viscosities in shear that no tension holds, over radius and rate of shear.
 constexpr double normal_share = 0.28;

@@ -48,7 +48,7 @@ class Spectrum {
 /// ellipsoid is of degree one.)
 Spectrum mean_curvature_spectrum(const Surface& surface);
 
-/// How well N latitudes resolve a shape.
+/// How well N latitudes resolve a shape, by the degrees of its mean curvature that are more than the round-off of its positions.
 struct Resolution {
   int latitudes = 0;
   /// Share of Lap H that lies beyond degree N, see Spectrum::laplacian_tail.
