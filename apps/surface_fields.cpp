@@ -7,12 +7,13 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "vesicle/bending.h"
 #include "vesicle/diagnostics.h"
+#include "vesicle/mesh_fit.h"
 #include "vesicle/mesh_quality.h"
 #include "vesicle/shapes.h"
-#include "vesicle/star_shaped_fit.h"
 #include "vesicle/surface_file.h"
 #include "vesicle/tension.h"
 #include "vesicle/triangle_mesh_file.h"
@@ -26,7 +27,7 @@ struct Options {
   int latitudes = 32;
   double reduced_volume = 0.9;
   std::vector<double> axes{1, 2, 4};
-  int fit_degrees = 16;
+  std::optional<int> fit_degrees;
   std::filesystem::path out = "out/surface_fields";
 };
 
@@ -40,8 +41,13 @@ VectorField markers(const Options& options, const SphereGrid& grid) {
   if (std::error_code error; !std::filesystem::exists(file, error))
     throw std::runtime_error(fmt::format(
         "surface = {}: neither a file nor one of sphere, prolate, oblate, ellipsoid, biconcave", options.surface));
-  if (is_triangle_mesh_name(file))
-    return shape_from_coefficients(grid, fit_star_shaped(read_triangle_mesh(file), options.fit_degrees).surface);
+  if (is_triangle_mesh_file(file)) {
+    const TriangleMesh mesh = read_triangle_mesh(file);
+    const int degrees = options.fit_degrees.value_or(default_fit_degrees(mesh.vertices.rows(), grid.latitudes()));
+    const MeshFit fit = fit_mesh(mesh, degrees);
+    fmt::print("{}: {}\n", file.string(), description(fit));
+    return shape_from_coefficients(grid, fit.surface);
+  }
   return shape_from_coefficients(grid, read_surface_coefficients(file));
 }
 
@@ -156,14 +162,16 @@ int main(int argc, char** argv) try {
   CLI::App app{
       "Writes every quantity of a surface at its markers as CSV, and its spectrum; draw with tools/plot_surface.py."};
   app.add_option("surface", options.surface,
-                 "sphere, prolate, oblate, ellipsoid, biconcave, or a file: coefficients, .obj or .off")
+                 "sphere, prolate, oblate, ellipsoid, biconcave, or a file: coefficients, or a triangle mesh (OBJ, "
+                 "OFF, PLY, STL)")
       ->capture_default_str();
   app.add_option("--latitudes", options.latitudes, "N; 2 N^2 markers")
       ->check(CLI::Range(4, 512))
       ->capture_default_str();
   app.add_option("--reduced-volume", options.reduced_volume, "of a prolate or oblate")->capture_default_str();
   app.add_option("--axes", options.axes, "proportions of an ellipsoid")->expected(3)->capture_default_str();
-  app.add_option("--fit-degrees", options.fit_degrees, "degrees of the fit to a triangle mesh")->capture_default_str();
+  app.add_option("--fit-degrees", options.fit_degrees,
+                 "degrees of the fit to a triangle mesh; unless given, as many as it determines, at most 32");
   app.add_option("--out", options.out, "folder")->capture_default_str();
   try {
     app.parse(argc, argv);
