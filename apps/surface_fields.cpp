@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 #include "command_line.h"
 #include "output_files.h"
@@ -12,9 +13,9 @@
 #include "streams.h"
 #include "vesicle/bending.h"
 #include "vesicle/diagnostics.h"
+#include "vesicle/mesh_fit.h"
 #include "vesicle/mesh_quality.h"
 #include "vesicle/shapes.h"
-#include "vesicle/star_shaped_fit.h"
 #include "vesicle/surface_file.h"
 #include "vesicle/tension.h"
 #include "vesicle/triangle_mesh_file.h"
@@ -28,7 +29,7 @@ struct Options {
   int latitudes = 32;
   double reduced_volume = 0.9;
   std::vector<double> axes{1, 2, 4};
-  int fit_degrees = 16;
+  std::optional<int> fit_degrees;
   std::string out = "out/surface_fields";
 };
 
@@ -45,8 +46,13 @@ VectorField markers(const Options& options, const SphereGrid& grid) {
     throw CommandLineError(fmt::format(
         "surface = {}: neither a file nor one of sphere, prolate, oblate, ellipsoid, biconcave", options.surface));
   try {
-    if (is_triangle_mesh_name(file))
-      return shape_from_coefficients(grid, fit_star_shaped(read_triangle_mesh(file), options.fit_degrees).surface);
+    if (is_triangle_mesh_file(file)) {
+      const TriangleMesh mesh = read_triangle_mesh(file);
+      const int degrees = options.fit_degrees.value_or(default_fit_degrees(mesh.vertices.rows(), grid.latitudes()));
+      const MeshFit fit = fit_mesh(mesh, degrees);
+      print_result(fmt::format("{}: {}\n", file.string(), description(fit)));
+      return shape_from_coefficients(grid, fit.surface);
+    }
     return shape_from_coefficients(grid, read_surface_coefficients(file));
   } catch (const std::runtime_error& error) {
     throw CommandLineError(error.what());
@@ -161,16 +167,17 @@ const std::vector<std::string> shapes = {"sphere", "prolate", "oblate", "ellipso
 
 void declare(CommandLine& command_line, Options& options) {
   command_line
-      .add_option("surface", options.surface,
-                  fmt::format("{}; or a file: coefficients, .obj or .off", fmt::join(shapes, ", ")))
+      .add_option(
+          "surface", options.surface,
+          fmt::format("{}; or a file: coefficients, or a triangle mesh (OBJ, OFF, PLY, STL)", fmt::join(shapes, ", ")))
       ->type_name("FILE")
       ->capture_default_str();
   command_line.complete("surface", shapes);
   command_line.add_option("--latitudes", options.latitudes, "N; 2 N^2 markers")->capture_default_str();
   command_line.add_option("--reduced-volume", options.reduced_volume, "of a prolate or oblate")->capture_default_str();
   command_line.add_option("--axes", options.axes, "proportions of an ellipsoid")->expected(3)->default_str("1 2 4");
-  command_line.add_option("--fit-degrees", options.fit_degrees, "degrees of the fit to a triangle mesh")
-      ->capture_default_str();
+  command_line.add_option("--fit-degrees", options.fit_degrees,
+                          "degrees of the fit to a triangle mesh; unless given, as many as it determines, at most 32");
   command_line.add_out(options.out, "the tables")->capture_default_str();
 }
 

@@ -1,10 +1,10 @@
-// Files of triangle meshes, .off where the first word begins with O and .obj otherwise: each is refused by the errors that
-// triangle_mesh_file.h, triangle_mesh.h and star_shaped_fit.h promise, or makes a finite surface.
+// Files of triangle meshes, OBJ, OFF, PLY or STL by their content: each is refused by the errors that triangle_mesh_file.h,
+// triangle_mesh.h and mesh_fit.h promise, or makes a finite surface.
 #include <stdexcept>
 
 #include "check.h"
 #include "input_file.h"
-#include "vesicle/star_shaped_fit.h"
+#include "vesicle/mesh_fit.h"
 #include "vesicle/triangle_mesh_file.h"
 
 namespace vesiflow::fuzz {
@@ -23,9 +23,10 @@ void read(const std::filesystem::path& path) {
         "corners of a mesh that was read are vertices");
   constexpr int degrees = 2;
   try {
-    const vesicle::StarShapedFit fit = vesicle::fit_star_shaped(mesh, degrees);
-    check(fit.centre.allFinite() && std::isfinite(fit.mean_radius) && std::isfinite(fit.rms_residual) &&
-              std::isfinite(fit.max_residual) && std::isfinite(fit.surface.energy(0, degrees + 1)),
+    const vesicle::MeshFit fit = vesicle::fit_mesh(mesh, degrees);
+    check(std::isfinite(fit.radius) && std::isfinite(fit.max_distance) && std::isfinite(fit.max_between) &&
+              std::isfinite(fit.fitted.area) && std::isfinite(fit.smooth.volume) &&
+              std::isfinite(fit.surface.energy(0, degrees)),
           "the surface that is fitted to a mesh is finite");
   } catch (const std::invalid_argument&) {
   } catch (const std::domain_error&) {
@@ -36,8 +37,7 @@ void read(const std::filesystem::path& path) {
 }  // namespace vesiflow::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const vesiflow::fuzz::InputFile off("mesh.off"), obj("mesh.obj");
-  const auto& file = size > 0 && data[0] == 'O' ? off : obj;
+  static const vesiflow::fuzz::InputFile file("mesh");
   file.write({data, size});
   vesiflow::fuzz::read(file.path());
   return 0;

@@ -235,7 +235,8 @@ void check_vesicle_keys(const Scene& scene, std::size_t i, const std::string& na
   go_together(vesicle.shape == Shape::harmonics, !vesicle.harmonics.empty(),
               "harmonics = [[degree, order, amplitude], ...]", "\"harmonics\"");
   go_together(from_file, vesicle.file || vesicle.surface, "file = \"...\"", "\"coefficients\" or \"mesh\"");
-  go_together(vesicle.shape == Shape::mesh, vesicle.fit_degrees.has_value(), "fit_degrees", "\"mesh\"");
+  if (vesicle.shape != Shape::mesh && vesicle.fit_degrees)
+    throw SceneError(fmt::format("{}: {}: fit_degrees goes with shape = \"mesh\" only", name, key));
   if (from_file && !vesicle.surface)
     throw SceneError(
         fmt::format("{}: {}.file = \"{}\": has not been read; a program that fills a scene itself sets "

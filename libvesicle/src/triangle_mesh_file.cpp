@@ -2,141 +2,135 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <stdexcept>
+#include <cstdint>
+#include <fstream>
 #include <string>
-#include <vector>
+#include <string_view>
 
+#include "binary_file.h"
+#include "mesh_readers.h"
 #include "text_lines.h"
 
 namespace vesiflow::vesicle {
 namespace {
 
-/// A mesh while its file is being read.
-class MeshBuilder {
- public:
-  int vertices() const { return static_cast<int>(vertices_.size()); }
-  int faces() const { return faces_; }
+enum class Format { obj, off, ply, text_stl, binary_stl, foreign, unknown };
 
-  void add_vertex(const TextLines& file, std::size_t first_word) {
-    if (file.words().size() < first_word + 3) file.fail("a vertex needs three coordinates");
-    std::array<double, 3> x{};
-    for (std::size_t k = 0; k < 3; ++k) x[k] = file.number(file.words()[first_word + k], std::array{"x", "y", "z"}[k]);
-    vertices_.push_back(x);
-  }
-
-  /// Corners numbered from 0.
-  void add_face(const std::vector<int>& corners, const TextLines& file) {
-    if (corners.size() < 3) file.fail("a face of " + std::to_string(corners.size()) + " corners: must be at least 3");
-    for (std::size_t k = 2; k < corners.size(); ++k)
-      triangles_.push_back({{corners[0], corners[k - 1], corners[k]}, file.line()});
-    ++faces_;
-  }
-
-  /// first_number: of the first vertex in the file, for messages.
-  TriangleMesh finish(const TextLines& file, int first_number) const {
-    TriangleMesh mesh{VectorField(vertices(), 3), {}};
-    mesh.triangles.resize(static_cast<Eigen::Index>(triangles_.size()), 3);
-    for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) mesh.vertices(i, Eigen::Index(k)) = vertices_[std::size_t(i)][k];
-    for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& [corner, line] = triangles_[std::size_t(t)];
-        if (corner[k] < 0 || corner[k] >= vertices())
-          file.fail_at(line, "corner " + std::to_string(corner[k] + first_number) + ": must be in [" +
-                                 std::to_string(first_number) + ", " + std::to_string(vertices() - 1 + first_number) +
-                                 "], the vertices of the file");
-        mesh.triangles(t, Eigen::Index(k)) = corner[k];
-      }
-    return mesh;
-  }
-
- private:
-  struct Triangle {
-    std::array<int, 3> corner;
-    int line;
-  };
-  std::vector<std::array<double, 3>> vertices_;
-  std::vector<Triangle> triangles_;
-  int faces_ = 0;
+struct Content {
+  Format format = Format::unknown;
+  std::string_view name;  ///< of a foreign format
 };
 
-TriangleMesh read_obj(const std::filesystem::path& path) {
-  TextLines file(path);
-  MeshBuilder builder;
-  std::vector<int> corners;
-  while (file.next()) {
-    const auto& words = file.words();
-    if (words[0] == "v") {
-      builder.add_vertex(file, 1);
-    } else if (words[0] == "f") {
-      corners.clear();
-      for (std::size_t k = 1; k < words.size(); ++k) {
-        const int number = file.integer(words[k].substr(0, words[k].find('/')), "corner");
-        if (number == 0) file.fail("corner 0: numbers count from 1, or from -1 backwards");
-        corners.push_back(number > 0 ? number - 1 : builder.vertices() + number);
-      }
-      builder.add_face(corners, file);
-    }
-  }
-  return builder.finish(file, 1);
+std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(path)) fail_in(path, "cannot be read: no such file, or no permission");
+  std::string bytes(count, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
 }
 
-TriangleMesh read_off(const std::filesystem::path& path) {
-  TextLines file(path);
-  const auto expect_line = [&file](const char* what) {
-    if (!file.next()) file.fail(std::string("the file ends where ") + what + " should be");
+std::uintmax_t size_of_binary_stl(const std::string& head) {
+  return 84 + std::uintmax_t{50} * from_bytes<std::uint32_t>(head.data() + 80, std::endian::little);
+}
+
+/// The size says it, not the first bytes: many binary files begin with "solid" too.
+bool is_binary_stl(const std::filesystem::path& path, const std::string& head) {
+  std::error_code error;
+  return head.size() == 84 && std::filesystem::file_size(path, error) == size_of_binary_stl(head) && !error;
+}
+
+/// Formats that begin with a signature of theirs.
+std::string_view foreign_format(std::string_view head) {
+  struct Signature {
+    std::string_view bytes, name;
   };
-  expect_line("OFF");
-  if (file.words()[0] != "OFF") file.fail("the first word must be OFF, the plain text form");
-  std::size_t first = 1;
-  if (file.words().size() == 1) {
-    expect_line("the line of counts");
-    first = 0;
-  }
-  if (file.words().size() < first + 2) file.fail("the numbers of vertices, faces and edges are needed");
-  const int vertices = file.integer(file.words()[first], "number of vertices");
-  const int faces = file.integer(file.words()[first + 1], "number of faces");
-  if (vertices < 0 || faces < 0) file.fail("the numbers of vertices and faces must be >= 0");
-
-  MeshBuilder builder;
-  while (builder.vertices() < vertices) {
-    expect_line("a vertex");
-    builder.add_vertex(file, 0);
-  }
-  std::vector<int> corners;
-  while (builder.faces() < faces) {
-    expect_line("a face");
-    const int count = file.integer(file.words()[0], "number of corners");
-    if (count < 3 || static_cast<std::size_t>(count) >= file.words().size())
-      file.fail("number of corners = " + std::to_string(count) + ": must be >= 3, and the corners must follow");
-    corners.clear();
-    for (std::size_t k = 1; k <= static_cast<std::size_t>(count); ++k)
-      corners.push_back(file.integer(file.words()[k], "corner"));
-    builder.add_face(corners, file);
-  }
-  if (file.next()) file.fail("the file goes on after its " + std::to_string(faces) + " faces");
-  return builder.finish(file, 0);
+  constexpr std::array<Signature, 14> signatures{{{"# vtk", "VTK"},
+                                                  {"<?xml", "XML (VTU, VTP, COLLADA, X3D)"},
+                                                  {"<VTKFile", "VTK XML"},
+                                                  {"glTF", "binary glTF"},
+                                                  {"{", "JSON (glTF)"},
+                                                  {"PK\3\4", "a zip archive (3MF)"},
+                                                  {"\x1f\x8b", "gzip; unpack it first"},
+                                                  {"\x89HDF", "HDF5"},
+                                                  {"$MeshFormat", "Gmsh MSH"},
+                                                  {"MeshVersionFormatted", "Medit MESH"},
+                                                  {"ISO-10303-21", "STEP"},
+                                                  {"Kaydara FBX", "FBX"},
+                                                  {"BLENDER", "a file of Blender"},
+                                                  {"#VRML", "VRML"}}};
+  for (const Signature& signature : signatures)
+    if (head.starts_with(signature.bytes)) return signature.name;
+  return {};
 }
 
-std::string lower_case_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+bool is_obj_keyword(std::string_view word) {
+  constexpr std::array<std::string_view, 16> keywords{"v", "vt", "vn",     "vp",     "f",      "l",  "p",   "o",
+                                                      "g", "s",  "usemtl", "mtllib", "usemap", "mg", "lod", "maplib"};
+  return std::ranges::find(keywords, word) != keywords.end();
+}
+
+Content content_of(const std::filesystem::path& path) {
+  const std::string head = first_bytes(path, 84);
+  if (is_binary_stl(path, head)) return {Format::binary_stl, {}};
+  if (const std::string_view name = foreign_format(head); !name.empty()) return {Format::foreign, name};
+  if (head.starts_with("ply\n") || head.starts_with("ply\r")) return {Format::ply, {}};
+  TextLines file(path);
+  if (!file.next()) return {};
+  if (is_off_keyword(file.words()[0])) return {Format::off, {}};
+  if (is_obj_keyword(file.words()[0])) return {Format::obj, {}};
+  if (TextLines::lower_case(file.words()[0]) != "solid" || !file.next()) return {};
+  const std::string second = TextLines::lower_case(file.words()[0]);
+  return {second == "facet" || second == "endsolid" ? Format::text_stl : Format::unknown, {}};
+}
+
+std::string ending_of(const std::filesystem::path& path) {
+  return TextLines::lower_case(path.extension().string());
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const Content& content) {
+  const std::string formats = "meshes are read from OBJ, OFF, PLY and STL";
+  if (content.format == Format::foreign) fail_in(path, "this is " + std::string(content.name) + "; " + formats);
+  const std::string head = first_bytes(path, 84);
+  if (head.empty()) fail_in(path, "the file is empty");
+  if (ending_of(path) == ".stl" && head.size() == 84) {
+    std::error_code error;
+    fail_in(path, "neither text STL nor whole binary STL: by the number of its triangles that would have " +
+                      std::to_string(size_of_binary_stl(head)) + " bytes, and the file has " +
+                      std::to_string(std::filesystem::file_size(path, error)));
+  }
+  fail_in(path,
+          "not known as a mesh: OFF begins with the word OFF, PLY with ply, text STL with solid and facet, OBJ with "
+          "a line of its own such as v; " +
+              formats);
 }
 
 }  // namespace
 
-bool is_triangle_mesh_name(const std::filesystem::path& path) {
-  const std::string ending = lower_case_ending(path);
-  return ending == ".obj" || ending == ".off";
+bool is_triangle_mesh_file(const std::filesystem::path& path) {
+  if (content_of(path).format != Format::unknown) return true;
+  constexpr std::array<std::string_view, 4> endings{".obj", ".off", ".ply", ".stl"};
+  return std::ranges::find(endings, ending_of(path)) != endings.end();
 }
 
 TriangleMesh read_triangle_mesh(const std::filesystem::path& path) {
-  const std::string ending = lower_case_ending(path);
-  if (ending == ".obj") return read_obj(path);
-  if (ending == ".off") return read_off(path);
-  throw std::runtime_error(path.string() + ": the name of a mesh must end in .obj or .off");
+  const Content content = content_of(path);
+  switch (content.format) {
+    case Format::obj:
+      return read_obj(path);
+    case Format::off:
+      return read_off(path);
+    case Format::ply:
+      return read_ply(path);
+    case Format::text_stl:
+      return read_text_stl(path);
+    case Format::binary_stl:
+      return read_binary_stl(path);
+    case Format::foreign:
+    case Format::unknown:
+      break;
+  }
+  refuse(path, content);
 }
 
 }  // namespace vesiflow::vesicle

@@ -45,6 +45,42 @@ table ellipsoid ellipsoid --latitudes 24 --axes 1 1 2
 table biconcave biconcave --latitudes 48
 table file "$work/spheroid.txt" --latitudes 24
 
+# A red cell as binary STL and with a byte order mark as OBJ, of a sphere of 1026 vertices pushed onto the Evans-Fung disc.
+python3 - <<'PYTHON'
+import math, struct
+vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+triangles = [t for k in range(4) for t in ((k, (k + 1) % 4, 4), ((k + 1) % 4, k, 5))]
+for _ in range(4):
+    middles, finer = {}, []
+    def middle(a, b):
+        key = min(a, b), max(a, b)
+        if key not in middles:
+            m = [p + q for p, q in zip(vertices[a], vertices[b])]
+            middles[key] = len(vertices)
+            vertices.append(tuple(c / math.hypot(*m) for c in m))
+        return middles[key]
+    for a, b, c in triangles:
+        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+        finer += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    triangles = finer
+def disc(x, y, z):
+    rho = x * x + y * y
+    return x, y, z / 2 * (0.207161 + 2.002558 * rho - 1.122762 * rho * rho)
+cell = [disc(*v) for v in vertices]
+with open("cell.obj", "w", encoding="utf-8-sig") as f:
+    f.writelines("v %.9g %.9g %.9g\n" % v for v in cell)
+    f.writelines("f %d %d %d\n" % tuple(i + 1 for i in t) for t in triangles)
+with open("cell.stl", "wb") as f:
+    f.write(b"solid, but binary".ljust(80) + struct.pack("<I", len(triangles)))
+    for t in triangles:
+        f.write(struct.pack("<12f2x", 0, 0, 0, *(c for i in t for c in cell[i])))
+PYTHON
+table cell_obj cell.obj --latitudes 32
+table cell_stl cell.stl --latitudes 32
+for name in biconcave cell_obj cell_stl; do sed -n 's/^reduced volume *//p' $name.txt; done | python3 -c "
+disc, *cells = map(float, __import__('sys').stdin)
+assert len(cells) == 2 and all(abs(cell - disc) < 1e-4 for cell in cells), (disc, cells)" || failures=$((failures + 1))
+
 python3 - <<'PYTHON' || failures=$((failures + 1))
 import csv, math
 
@@ -115,15 +151,18 @@ refused '/proc/nosuch: cannot be made' sphere --out /proc/nosuch
 mkdir -p full && ln -sf /dev/full full/markers.csv
 refused 'markers.csv: cannot be written' sphere --latitudes 8 --out full
 code=2
-refused 'degrees = 16: the fit needs .* vertices' octahedron.OBJ
+refused 'degrees = 2: the fit needs .* vertices' octahedron.OBJ
+refused 'degrees = 16: the fit needs .* vertices' octahedron.OBJ --fit-degrees 16
 refused 'degrees = 0: must be >= 2' octahedron.OBJ --fit-degrees 0
 refused 'a_file: no coefficients' a_file
 head -c 3000 "$app" >garbage.txt
 refused 'garbage.txt:1: ' garbage.txt
 cp garbage.txt garbage.off
-refused 'garbage.off:1: the first word must be OFF' garbage.off
+refused 'garbage.off: not known as a mesh' garbage.off
+printf 'glTF' >mesh.glb
+refused 'mesh.glb: this is binary glTF' mesh.glb
 : >empty.obj
-refused '0 vertices: a closed surface needs at least 4' empty.obj
+refused 'empty.obj: the file is empty' empty.obj
 head -12 octahedron.OBJ >open.obj
 refused 'edge between vertices .* is open' open.obj
 

@@ -12,8 +12,8 @@
 #include "coupling/errors.h"
 #include "coupling/run.h"
 #include "coupling/scene.h"
+#include "vesicle/mesh_fit.h"
 #include "vesicle/shapes.h"
-#include "vesicle/star_shaped_fit.h"
 #include "vesicle/surface.h"
 #include "vesicle/surface_file.h"
 #include "vesicle/triangle_mesh_file.h"
@@ -124,6 +124,38 @@ std::string some_mesh() {
   return text + triangles;
 }
 
+// A disc of semi-axes 1.3 and 0.45 bent over a sphere of radius 0.9, a bowl without a centre that sees all of it, by longitudes and
+// latitudes: 218 vertices, enough for ten degrees.
+std::string bowl() {
+  constexpr int around = 18, down = 13;
+  std::string vertices, faces;
+  const auto vertex = [&](double theta, double phi) {
+    const double angle = 1.3 / 0.9 * std::sin(theta), r = 0.9 + 0.45 * std::cos(theta);
+    for (const double x :
+         {r * std::sin(angle) * std::cos(phi), r * std::sin(angle) * std::sin(phi), r * std::cos(angle)})
+      vertices += std::to_string(x) + " ";
+    vertices += "\n";
+  };
+  const auto face = [&](int a, int b, int c) {
+    faces += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  };
+  const auto at = [](int j, int i) { return 1 + (j - 1) * around + i % around; };
+  constexpr int last = 1 + (down - 1) * around;
+  vertex(0, 0);
+  for (int j = 1; j < down; ++j)
+    for (int i = 0; i < around; ++i) vertex(std::numbers::pi * j / down, 2 * std::numbers::pi * i / around);
+  vertex(std::numbers::pi, 0);
+  for (int i = 0; i < around; ++i) {
+    face(0, at(1, i), at(1, i + 1));
+    face(last, at(down - 1, i + 1), at(down - 1, i));
+    for (int j = 1; j + 1 < down; ++j) {
+      face(at(j, i), at(j + 1, i), at(j + 1, i + 1));
+      face(at(j, i), at(j + 1, i + 1), at(j, i + 1));
+    }
+  }
+  return "OFF\n" + std::to_string(last + 1) + " " + std::to_string(2 * around * (down - 1)) + " 0\n" + vertices + faces;
+}
+
 vesicle::VectorField start_of(const Scene& scene) {
   return Simulation(scene).state().vesicles[0].membrane.positions;
 }
@@ -146,10 +178,33 @@ TEST_F(InitialShapeTest, AreThoseOfTheLibraryInTheirPlace) {
 TEST_F(InitialShapeTest, MeshIsFittedAndPlaced) {
   write("shapes/a.obj", some_mesh());
   const vesicle::TriangleMesh mesh = vesicle::read_triangle_mesh(folder_ / "shapes/a.obj");
-  const vesicle::Coefficients fitted = vesicle::fit_star_shaped(mesh, 2).surface;
+  const vesicle::Coefficients fitted = vesicle::fit_mesh(mesh, 2).surface;
   EXPECT_TRUE((start_of(scene_with(mesh_keys, {"vesicles.0.fit_degrees=2"})) ==
                vesicle::shape_from_coefficients(vesicle::SphereGrid(latitudes), fitted, placement))
                   .all());
+}
+
+/// Degrees not given are those that the vertices determine, below the latitudes; vesicles share a fit.
+TEST_F(InitialShapeTest, DegreesOfTheFitFollowFromTheMesh) {
+  write("shapes/a.obj", some_mesh());
+  const std::string keys = "shape = \"mesh\"\nfile = \"shapes/a.obj\"\n";
+  EXPECT_TRUE((start_of(scene_with(keys)) == start_of(scene_with(mesh_keys, {"vesicles.0.fit_degrees=2"}))).all());
+  const Scene two = scene_with(keys + "[[vesicles]]\nradius = 0.3\ncentre = [1.4, 1.4, 1.4]\n" + keys);
+  ASSERT_EQ(two.vesicles.size(), 2u);
+  EXPECT_EQ(two.vesicles[1].surface->energy(0, 2), two.vesicles[0].surface->energy(0, 2));
+  EXPECT_FALSE(two.vesicles[1].fit_degrees);
+}
+
+/// A shape that is not star-shaped starts a simulation like any other: it keeps its area and volume, its membrane hardly yields.
+TEST_F(InitialShapeTest, BowlsOfTrianglesCanBeSimulated) {
+  write("shapes/a.off", bowl());
+  Simulation simulation(scene_with("shape = \"mesh\"\nfile = \"shapes/a.off\"\n", {"membrane.capillary_number=1"}));
+  const vesicle::Surface& surface = simulation.membrane(0).surface();
+  const double area = surface.area(), volume = surface.volume();
+  EXPECT_NEAR(vesicle::reduced_volume(area, volume), 0.7685, 5e-3);
+  for (int step = 0; step < 12; ++step) simulation.step();
+  EXPECT_NEAR(simulation.membrane(0).surface().area() / area, 1, 1e-10);
+  EXPECT_NEAR(simulation.membrane(0).surface().volume() / volume, 1, 1e-10);
 }
 
 TEST_F(InitialShapeTest, ScenesAreWrittenBackAndReadTheSameFromAnywhere) {
@@ -183,7 +238,7 @@ TEST_F(InitialShapeTest, BadKeysAreRefusedByName) {
   expect_complaint("shape = \"biconcave\"\nreduced_volume = 0.6\n", {"vesicles.0", "prolate and oblate"});
   expect_complaint("shape = \"sphere\"\nfile = \"a.txt\"\n", {"vesicles.0", "\"coefficients\" or \"mesh\""});
   expect_complaint("shape = \"mesh\"\n", {"vesicles.0", "file = "});
-  expect_complaint("shape = \"mesh\"\nfile = \"a.obj\"\n", {"vesicles.0", "fit_degrees goes with shape = \"mesh\""});
+  expect_complaint("shape = \"sphere\"\nfit_degrees = 4\n", {"vesicles.0", "fit_degrees goes with shape = \"mesh\""});
   expect_complaint("shape = \"coefficients\"\nfile = 3\n", {"vesicles.0.file = 3", "text"});
   expect_complaint("shape = \"coefficients\"\nfile = \"\"\n", {"vesicles.0.file", "cannot be read"});
 }

@@ -12,8 +12,8 @@
 #include "meshes.h"
 #include "support.h"
 #include "text_file.h"
+#include "vesicle/mesh_fit.h"
 #include "vesicle/shapes.h"
-#include "vesicle/star_shaped_fit.h"
 #include "vesicle/surface_file.h"
 #include "vesicle/triangle_mesh_file.h"
 
@@ -111,27 +111,69 @@ TEST(DamagedFiles, CoefficientsAreReadOrRefused) {
 
 class DamagedMeshes : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(DamagedMeshes, AreReadOrRefused) {
-  const TriangleMesh mesh = testing::octasphere(2);
-  const bool off = std::strcmp(GetParam(), "off") == 0;
+std::string bytes_of(float value) {
+  std::string bytes(sizeof value, '\0');
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
+std::string text_of(const TriangleMesh& mesh, const std::string& format) {
   std::ostringstream text;
-  if (off) text << "OFF\n" << mesh.vertices.rows() << ' ' << mesh.triangles.rows() << " 0\n";
-  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i)
-    text << (off ? "" : "v ") << mesh.vertices(i, 0) << ' ' << mesh.vertices(i, 1) << ' ' << mesh.vertices(i, 2)
-         << '\n';
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    text << (off ? "3" : "f");
-    for (int corner : mesh.triangles.row(t)) text << ' ' << corner + (off ? 0 : 1);
-    text << '\n';
+  const Eigen::Index vertices = mesh.vertices.rows(), triangles = mesh.triangles.rows();
+  const auto point = [&](Eigen::Index i) -> std::ostream& {
+    return text << mesh.vertices(i, 0) << ' ' << mesh.vertices(i, 1) << ' ' << mesh.vertices(i, 2) << '\n';
+  };
+  if (format == "stl") {
+    text << "solid\n";
+    for (Eigen::Index t = 0; t < triangles; ++t) {
+      text << "facet normal 0 0 0\nouter loop\n";
+      for (const int corner : mesh.triangles.row(t)) {
+        text << "vertex ";
+        point(corner);
+      }
+      text << "endloop\nendfacet\n";
+    }
+    text << "endsolid\n";
+    return text.str();
   }
-  try_damaged(std::string("damaged.") + GetParam(), text.str(), runs(), 2, [](const std::filesystem::path& path) {
-    const StarShapedFit fit = fit_star_shaped(read_triangle_mesh(path), 4);
+  const bool is_binary = format == "ply";
+  if (format == "off") text << "OFF\n" << vertices << ' ' << triangles << " 0\n";
+  if (is_binary)
+    text << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices
+         << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << triangles
+         << "\nproperty list uchar uchar vertex_indices\nend_header\n";
+  for (Eigen::Index i = 0; i < vertices; ++i) {
+    if (is_binary) {
+      for (int k = 0; k < 3; ++k) text << bytes_of(float(mesh.vertices(i, k)));
+      continue;
+    }
+    text << (format == "obj" ? "v " : "");
+    point(i);
+  }
+  for (Eigen::Index t = 0; t < triangles; ++t) {
+    text << (is_binary ? "\3" : format == "off" ? "3" : "f");
+    for (const int corner : mesh.triangles.row(t)) {
+      if (is_binary)
+        text << static_cast<char>(corner);
+      else
+        text << ' ' << corner + (format == "off" ? 0 : 1);
+    }
+    if (!is_binary) text << '\n';
+  }
+  return text.str();
+}
+
+TEST_P(DamagedMeshes, AreReadOrRefused) {
+  const std::string format = GetParam();
+  const std::string text = text_of(testing::octasphere(2), format);
+  try_damaged("damaged." + format, text, runs(), 2, [](const std::filesystem::path& path) {
+    const MeshFit fit = fit_mesh(read_triangle_mesh(path), 4);
     EXPECT_TRUE(shape_from_coefficients(SphereGrid(6), fit.surface).isFinite().all());
-    EXPECT_TRUE(std::isfinite(fit.rms_residual) && std::isfinite(fit.max_residual));
+    EXPECT_TRUE(std::isfinite(fit.rms_distance) && std::isfinite(fit.max_between));
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, DamagedMeshes, ::testing::Values("obj", "off"));
+INSTANTIATE_TEST_SUITE_P(Formats, DamagedMeshes, ::testing::Values("obj", "off", "ply", "stl"));
 
 }  // namespace
 }  // namespace vesiflow::vesicle

@@ -48,6 +48,30 @@ inline TriangleMesh octasphere(int times) {
   return mesh_of(x, triangles);
 }
 
+/// The mesh with its vertices at shape(vertex).
+template <class Shape>
+TriangleMesh mapped(TriangleMesh mesh, const Shape& shape) {
+  for (Eigen::Index i = 0; i < mesh.vertices.rows(); ++i) {
+    const Vector3 moved = shape(Vector3(mesh.vertices.row(i).matrix().transpose()));
+    mesh.vertices.row(i) = moved.transpose().array();
+  }
+  return mesh;
+}
+
+/// Evans-Fung disc of radius 1, see biconcave_disc().
+inline Vector3 red_cell(const Vector3& d) {
+  const double rho = d.x() * d.x() + d.y() * d.y();
+  return {d.x(), d.y(), d.z() / 2 * (0.207161 + 2.002558 * rho - 1.122762 * rho * rho)};
+}
+
+/// A disc of semi-axes 1.6 and 0.25 bent over a sphere of radius 0.9, which it covers down to 102 degrees from the top: a bowl
+/// that is not star-shaped about any point.
+inline Vector3 stomatocyte(const Vector3& d) {
+  const double rho = std::hypot(d.x(), d.y()), angle = 1.6 / 0.9 * rho, radius = 0.9 + 0.25 * d.z();
+  const double across = rho > 0 ? radius * std::sin(angle) / rho : 0;
+  return {across * d.x(), across * d.y(), radius * std::cos(angle)};
+}
+
 /// Genus one; radii 2 and 1 about z.
 inline TriangleMesh torus(int around, int across) {
   std::vector<Vector3> x;

@@ -41,6 +41,19 @@ TEST(SurfaceFile, LinesLeftOutAreZeroAndComeInAnyOrder) {
   EXPECT_EQ(read.energy(0, 3), 1 + 4 + 2 * 25);
 }
 
+TEST(SurfaceFile, SkipsTheByteOrderMarkOfUtf8AndNamesUtf16) {
+  const TextFile file("marked.txt",
+                      "\xef\xbb\xbf"
+                      "0 0  1 0  2 0  3 0\n");
+  EXPECT_EQ(read_surface_coefficients(file.path())(2, 0, 0), Coefficients::Complex(3, 0));
+  EXPECT_EQ(testing::complaint_about("wide.txt",
+                                     std::string("\xff\xfe"
+                                                 "0\0",
+                                                 4),
+                                     read_surface_coefficients),
+            "wide.txt: this is text in UTF-16; save it as UTF-8");
+}
+
 /// The unit sphere by hand in the documented convention: x and y from Y_1^1 = sqrt(3/(8 pi)) sin(theta) exp(i phi) by 2
 /// Re(c Y) and 2 Re(-i c Y), z from Y_1^0 = sqrt(3/(4 pi)) cos(theta).
 TEST(SurfaceFile, ConventionIsTheOneInTheHeader) {

@@ -38,7 +38,8 @@ struct VesicleScene {
   std::optional<std::array<double, 3>> axes;  ///< of an ellipsoid: ratios of its axes along x, y, z
   std::vector<vesicle::Harmonic> harmonics;   ///< terms of a perturbed sphere
   std::optional<std::string> file;            ///< of coefficients or of a mesh; absolute once a scene is loaded
-  std::optional<int> fit_degrees;             ///< degrees of the radius that is fitted to a mesh
+  std::optional<int>
+      fit_degrees;  ///< degrees of the surface that is fitted to a mesh; as many as it determines unless given
   /// What the file of shape coefficients or mesh says. No key: loading a scene fills it from the file, or from the
   /// checkpoint; programs that fill a Scene themselves may set it instead of `file`.
   std::optional<vesicle::Coefficients> surface;
