@@ -77,16 +77,5 @@ TEST_F(AtomicFile, NamesTheFileAndTheSystemsReason) {
   }
 }
 
-TEST_F(AtomicFile, CopiesBytes) {
-  const fs::path source = directory_ / "source", target = directory_ / "target";
-  std::string bytes(3 << 20, '\0');
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761U >> 24);
-  std::ofstream(source, std::ios::binary) << bytes;
-  std::ofstream(target, std::ios::binary) << std::string(5 << 20, 'x');  // longer: must be cut
-  copy_bytes(source, target);
-  EXPECT_TRUE(text_of(target) == bytes);
-  EXPECT_THROW(copy_bytes(directory_ / "missing", target), FileError);
-}
-
 }  // namespace
 }  // namespace vesiflow::coupling
