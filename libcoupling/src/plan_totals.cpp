@@ -42,9 +42,9 @@ std::string describe_time(const Scene& scene, int threads) {
   const double alone = seconds * planned_steps(scene);
   const int running = std::min(threads, omp_get_num_procs());
   std::string text = fmt::format("about {}", duration(alone * (1.0 - shared + shared / running)));
-  text += fmt::format(" by {}: {:.0f} steps of {:.3g} ms by one",
-                      running == 1 ? "one thread" : fmt::format("{} threads", running), planned_steps(scene),
-                      1e3 * seconds);
+  text +=
+      fmt::format(" by {}: {:.0f} steps of {} by one", running == 1 ? "one thread" : fmt::format("{} threads", running),
+                  planned_steps(scene), duration(seconds));
   return text + (scene.time.adaptive ? ", if they stay as long as the first" : "");
 }
 
@@ -62,6 +62,7 @@ double free_bytes(std::filesystem::path directory) {
 
 std::string duration(double seconds) {
   constexpr double minute = 60.0, hour = 60.0 * minute, day = 24.0 * hour;
+  if (seconds < 0.1) return fmt::format("{:.2g} ms", 1e3 * seconds);
   if (seconds < 1.5 * minute) return fmt::format("{:.2g} s", seconds);
   if (seconds < 1.5 * hour) return fmt::format("{:.2g} min", seconds / minute);
   return seconds < 2.0 * day ? fmt::format("{:.2g} h", seconds / hour) : fmt::format("{:.0f} days", seconds / day);

@@ -7,7 +7,7 @@
 
 namespace vesiflow::coupling {
 
-/// A time for people: "24 s", "3.2 min", "1.5 h", "4 days".
+/// A time for people: "15 ms", "24 s", "3.2 min", "1.5 h", "4 days".
 std::string duration(double seconds);
 
 /// Bytes of all files that a run leaves, and of the second checkpoint while one is written: rows of the table, snapshots of

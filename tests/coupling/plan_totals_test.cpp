@@ -15,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(PlanTotals, SaysTimesInTheUnitThatSuits) {
+  EXPECT_EQ(duration(0.015), "15 ms");
   EXPECT_EQ(duration(0.25), "0.25 s");
   EXPECT_EQ(duration(24.3), "24 s");
   EXPECT_EQ(duration(192.0), "3.2 min");
