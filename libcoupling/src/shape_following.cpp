@@ -114,6 +114,7 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   if (scene.flow.type != FlowType::custom) strain_rate_ = flow_of(scene).greatest_gradient;
   const double v = vesicle::reduced_volume(membrane.initial_area(), membrane.initial_volume());
   excess_area_ = std::max(0.0, 1.0 / std::cbrt(v * v) - 1.0);
+  ties_strain_ = has_tension() && scene.membrane.volume != vesicle::VolumeControl::none;
   keeps_area_ = has_tension() || scene.membrane.area == vesicle::AreaControl::projection;
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
   if (keeps_area_) conserved.area = membrane.initial_area();
@@ -193,7 +194,7 @@ void ShapeFollowing::finish(double dt, vesicle::Membrane& membrane) {
   positions_ = state_.leftCols<3>();
   if (has_tension()) strain_ = state_.col(3);
   membrane.move_to(positions_, strain_);
-  if (has_tension() && !keeps_area_now_) tie_strain(membrane);
+  if (ties_strain_ && !keeps_area_now_) tie_strain(membrane);
 }
 
 // (W, ds/dt) at the predicted state, and the slip w in the coordinates of the mesh. Volume and area are kept by the rates already:
@@ -209,7 +210,7 @@ void ShapeFollowing::find_rates(const Surface& surface) {
   surface.divergence(velocity_, divergence_);
   surface.gradient(strain_, vectors_);
   rates_.col(3) = divergence_ - ((velocity_ - mesh_velocity_) * vectors_).rowwise().sum();
-  if (!keeps_area_now_) tie_strain_rate(surface);
+  if (ties_strain_ && !keeps_area_now_) tie_strain_rate(surface);
 }
 
 // Per displacement.

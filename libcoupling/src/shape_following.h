@@ -42,7 +42,8 @@ namespace vesiflow::coupling {
 ///     There the tension is also soft enough for its mean to be explicit, as a uniform tension acts on the deviation alone;
 ///   - unless a step of the undisturbed flow moves a sphere by more than f, or the correction would be larger than f.
 /// Where the area is not kept the volume is, and a constant is added to ds/dt and to s, so that m and the area stay together: what the
-/// membrane leaks, the correction of the volume and the errors of steps are in div U, but not in the area. An area is never farther from A0
+/// membrane leaks, the correction of the volume and the errors of steps are in div U, but not in the area (not with membrane.volume = "none", where
+/// nothing is corrected). An area is never farther from A0
 /// than some local one. Degrees kept: those the fluid's grid resolves, k h < 0.7 pi, and n < 2N/3; the highest are damped a little
 /// (their waves would grow on the slip).
 class ShapeFollowing : public MembraneMotion {
@@ -109,7 +110,7 @@ class ShapeFollowing : public MembraneMotion {
   double solved_viscosity_, explicit_viscosity_;  // of the solve of a step, and what its explicit term takes off it
   double remembered_viscosity_ = 0.0;             // of the explicit one, what the fluid is told of
   double lagging_viscosity_ = 0.0;                // what the explicit term adds to the overestimate
-  bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false;
+  bool has_inertia_, is_thin_, extrapolates_viscosity_, keeps_volume_, keeps_area_ = false, ties_strain_ = false;
   double strain_rate_ = 0.0;  // of the undisturbed flow, where it is known
   double excess_area_ = 0.0;  // of the area to be kept: over that of the sphere of the same volume, less 1
   MirrorSymmetry symmetry_;

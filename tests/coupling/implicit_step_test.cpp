@@ -47,8 +47,7 @@ vesicle::Diagnostics at_end(const Scene& scene) {
 }
 
 // BDF2 with the rates of the new state, all of them found without the motion that made the step: 1.5 d - 0.5 d^k = dt rates(y^k + d).
-// A sphere whose volume nothing holds is corrected in nothing but the mean of its strain, which is that of the area, so that the others hold as
-// they stand.
+// A sphere with a volume that nothing holds is corrected in nothing, so that the equations hold as they stand.
 TEST_F(ImplicitStepTest, SolvesItsEquations) {
   const Overrides overrides{"vesicles.0.reduced_volume=1", "membrane.volume=none", "time.implicit_tolerance=1e-11",
                             "fluid.reynolds_number=1"};
@@ -121,14 +120,14 @@ TEST_F(ImplicitStepTest, SolvesItsEquations) {
 
   // Their largest coefficient, what the highest degrees are damped by taken out: dt times a rate theta of 16/R (n/(p-1))^8 y, theta being the
   // speed at the predicted state, which differs a little from that of the new one.
-  const auto expect_none = [&](const Eigen::ArrayXXd& equation, const Eigen::ArrayXXd& y2, int from_degree) {
+  const auto expect_none = [&](const Eigen::ArrayXXd& equation, const Eigen::ArrayXXd& y2) {
     vesicle::Coefficients y, damping;
     harmonics.analysis(y2, y);
     harmonics.analysis(equation, c);
     damping = y;
     double along = 0.0, squares = 0.0, largest = 0.0;
     const auto for_all = [&](const auto& visit) {
-      for (int n = from_degree; n < degrees; ++n)
+      for (int n = 0; n < degrees; ++n)
         for (int m = 0; m <= n; ++m)
           for (int f = 0; f < y.fields(); ++f) visit(f, n, m);
     };
@@ -142,10 +141,8 @@ TEST_F(ImplicitStepTest, SolvesItsEquations) {
     for_all([&](int f, int n, int m) { largest = std::max(largest, std::abs(c(f, n, m) - theta * damping(f, n, m))); });
     EXPECT_LT(largest, 1e-9);
   };
-  expect_none(1.5 * (x[2] - x[1]) - 0.5 * (x[1] - x[0]) - dt * w, x[2], 0);
-  expect_none(1.5 * (s[2] - s[1]) - 0.5 * (s[1] - s[0]) - dt * strain_rate, s[2], 1);
-  const vesicle::Membrane& membrane = simulation.membrane(0);
-  EXPECT_NEAR(membrane.target_areas().sum() / membrane.initial_area(), 1.0, 1e-13);
+  expect_none(1.5 * (x[2] - x[1]) - 0.5 * (x[1] - x[0]) - dt * w, x[2]);
+  expect_none(1.5 * (s[2] - s[1]) - 0.5 * (s[1] - s[0]) - dt * strain_rate, s[2]);
   EXPECT_LT((other.marker_velocity(0) - simulation.marker_velocity(0)).abs().maxCoeff(), 1e-8);
 }
 
