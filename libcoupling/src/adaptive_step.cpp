@@ -17,8 +17,12 @@
 namespace vesiflow::coupling {
 namespace {
 
+// The root is taken of a number in [1, 8): std::cbrt of numbers a power of eight apart may differ in their last bits, and steps would depend
+// on the unit of length.
 double effective_radius(double volume) {
-  return std::cbrt(0.75 * volume / std::numbers::pi);
+  const double cube = 0.75 * volume / std::numbers::pi;
+  const int thirds = static_cast<int>(std::floor(std::ilogb(cube) / 3.0));
+  return std::ldexp(std::cbrt(std::ldexp(cube, -3 * thirds)), thirds);
 }
 
 }  // namespace

@@ -133,9 +133,15 @@ class ContinentalLocale {
   std::locale cpp_;
 };
 
+// Its end says what memory and disk are free, which change.
+std::string plan_without_the_machine() {
+  const std::string plan = describe_plan(short_scene(), 2);
+  return std::regex_replace(plan, std::regex("(the machine|the file system of \\.) has [0-9]+"), "$1 has #");
+}
+
 TEST_F(HostSettings, ADecimalCommaChangesNoFile) {
   const fs::path here = run_into("here");
-  const std::string plan = describe_plan(short_scene(), 2);
+  const std::string plan = plan_without_the_machine();
   const ContinentalLocale locale;
   const fs::path there = run_into("there");
   for (const char* file : {"scene.toml", "diagnostics.csv", "vesicle.xdmf", "fluid.xdmf"}) {
@@ -144,7 +150,7 @@ TEST_F(HostSettings, ADecimalCommaChangesNoFile) {
   }
   EXPECT_EQ(read_checkpoint_scene(there / "checkpoint.h5").time.step, 1.0 / 96);
   EXPECT_EQ(load_scene(there / "scene.toml").domain.lower[0], -3.0);
-  EXPECT_EQ(describe_plan(short_scene(), 2), plan);
+  EXPECT_EQ(plan_without_the_machine(), plan);
   // Two runs differ in their times only.
   const auto without_numbers = [](const fs::path& file) {
     return std::regex_replace(text_of(file), std::regex("[-+.0-9e]+"), "#");
