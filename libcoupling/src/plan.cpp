@@ -22,6 +22,7 @@
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
+#include "vesicle_scales.h"
 #include "viscosity_plan.h"
 
 namespace vesiflow::coupling {
@@ -114,7 +115,7 @@ void describe_deflation(Plan& plan, const Scene& scene, const std::vector<vesicl
     vesicle::Surface surface(scene.latitudes(i));
     surface.update(markers[i]);
     const double deflated = vesicle::reduced_volume(surface.area(), surface.volume());
-    if (deflated < least) std::tie(least, capillary_number) = std::pair{deflated, scene.capillary_number(i)};
+    if (deflated < least) std::tie(least, capillary_number) = std::pair{deflated, own_capillary_number(scene, i)};
   }
   const bool is_fast = scene.flow.type != FlowType::rest && capillary_number >= fast_flow;
   plan.line("reduced volume", "{:.3g} at the start{}", least,
@@ -136,7 +137,6 @@ std::string describe_spacing(const Scene& scene) {
 
 void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   const auto& c = scene.domain.cells;
-  const double h = scene.spacing();
   int coarsest = scene.latitudes(0), finest = scene.latitudes(0);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     coarsest = std::min(coarsest, scene.latitudes(i));

@@ -18,8 +18,7 @@ namespace vesiflow::coupling {
 
 double stable_bending_step(const Scene& scene) {
   double stiffest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
-    stiffest = std::min(stiffest, scene.capillary_number(i) * std::pow(scene.vesicles[i].radius, 3));
+  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, own_capillary_number(scene, i));
   return 0.5 * stiffest;
 }
 

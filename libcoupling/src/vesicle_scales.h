@@ -19,4 +19,10 @@ inline double vesicle_reynolds_number(const Scene& scene) {
   return scene.fluid.inertia == fluid::Inertia::none ? 0.0 : scene.fluid.reynolds_number * radius * radius;
 }
 
+/// Capillary number of a vesicle in the unit of time of the scene and its own radius: mu r^3/(c_b t), whatever the unit of length.
+inline double own_capillary_number(const Scene& scene, std::size_t vesicle) {
+  const double radius = scene.vesicles[vesicle].radius;
+  return scene.capillary_number(vesicle) * radius * radius * radius;
+}
+
 }  // namespace vesiflow::coupling

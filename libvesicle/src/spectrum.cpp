@@ -38,7 +38,7 @@ void drop_round_off(const Surface& surface, Coefficients& mean_curvature) {
   constexpr double steps = 1e4;  // of a simulation, the rounding of each of which adds to the noise like a random walk
   const double rounding = std::numeric_limits<double>::epsilon() * surface.positions().abs().maxCoeff();
   const double square_radius = surface.area() / (4 * std::numbers::pi);
-  const double white = std::sqrt(4 * std::numbers::pi * steps / surface.grid().size()) * rounding;
+  const double white = std::sqrt(4 * std::numbers::pi * steps / static_cast<double>(surface.grid().size())) * rounding;
   for (int n = 0; n < mean_curvature.degrees(); ++n) {
     const double noise = white * std::sqrt(2.0 * n + 1) * (2 + laplacian_symbol(n)) / (2 * square_radius);
     if (mean_curvature.energy(n, n + 1) > noise * noise) continue;

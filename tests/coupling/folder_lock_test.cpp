@@ -175,7 +175,7 @@ TEST_F(FolderLockTest, KilledAtAnyMomentLeavesNothingInTheWay) {
       }
       return 0;
     });
-    usleep(500 + chance() % 3000);
+    usleep(static_cast<useconds_t>(500 + chance() % 3000));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     ASSERT_NO_THROW(FolderLock{folder}) << "after " << kills << " kills";

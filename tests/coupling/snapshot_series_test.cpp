@@ -65,7 +65,9 @@ class Snapshots : public testing::Test {
       const bool in_list = list.exists("/steps/" + step),
                  in_text = text.find("<snapshots/" + name) != std::string::npos;
       if (in_list != in_text) return -1;
-      if (in_list) EXPECT_EQ(list.size("/steps/" + step + "/values"), 8192U);
+      if (in_list) {
+        EXPECT_EQ(list.size("/steps/" + step + "/values"), 8192U);
+      }
       count += in_list;
     }
     return count;
@@ -92,8 +94,12 @@ TEST_F(Snapshots, AreListedAtOnceWhileTheyAreFewAndAtTheLatestWhenAsked) {
   SnapshotSeries all = series();
   for (int step = 0; step < 120; ++step) {
     all.write(step, step);
-    if (step == 4 || step == 49) ASSERT_EQ(listed(), step + 1);
-    if (step == 60 || step == 119) ASSERT_GE(listed(), (step + 1) - (step + 1) / 50);
+    if (step == 4 || step == 49) {
+      ASSERT_EQ(listed(), step + 1);
+    }
+    if (step == 60 || step == 119) {
+      ASSERT_GE(listed(), (step + 1) - (step + 1) / 50);
+    }
   }
   all.list();
   EXPECT_EQ(listed(), 120);

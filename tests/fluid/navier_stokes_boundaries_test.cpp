@@ -151,5 +151,20 @@ TEST(WallVelocity, RefusesAFunctionThatDiffersAtTheEndsOfAPeriodicAxis) {
   EXPECT_THAT([&] { NavierStokes(grid, {}); }, ThrowsMessage<std::invalid_argument>(HasSubstr("empty function")));
 }
 
+// Round-off is that of the greatest velocity, whatever its unit: a small component may differ by that much, and by no more.
+TEST(WallVelocity, AllowsRoundOffOfFastWallsAtTheEndsOfAPeriodicAxis) {
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {false, false, true});
+  const auto walls = [&](double difference) {
+    return WallVelocity(
+        grid,
+        [=](const Vector3& r, double) {
+          return Vector3{r[2] > 0.5 ? difference : 0.0, 1e9, 0.0};
+        },
+        true);
+  };
+  EXPECT_NO_THROW(walls(1e-3));
+  EXPECT_THROW(walls(1.0), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace vesiflow::fluid

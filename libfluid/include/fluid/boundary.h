@@ -68,10 +68,11 @@ class WallVelocity {
   };
   const Plane& plane(int component, int axis, int side) const { return planes_[component * 6 + axis * 2 + side]; }
   void sample_all();
-  void sample(Plane& plane) const;
-  double sampled_at(const Vector3& position, int component) const;
-  void check_symmetry(double value, const Vector3& position, int component) const;
-  void check_periodicity(const Plane& plane) const;
+  struct Deviations;
+  void sample(Plane& plane, Deviations& found) const;
+  double sampled_at(const Vector3& position, int component, Deviations& found) const;
+  void compare_periods(const Plane& plane, Deviations& found) const;
+  void refuse(const Deviations& found) const;
   void balance_flux();
   void fill_wall_ghosts(const Plane& wall, const View& field) const;
 
