@@ -116,6 +116,22 @@ std::filesystem::path directory_of(const Arguments& arguments) {
   return "out" / (is_folder(named) ? std::filesystem::absolute(last).lexically_normal().filename() : last.stem());
 }
 
+// What a run goes on or starts from, before anything is planned or computed.
+void check_source(const Arguments& arguments, const std::filesystem::path& directory) {
+  if (!arguments.checkpoint.empty()) read_checkpoint_scene(arguments.checkpoint);
+  if (arguments.start_from.empty()) return;
+  const std::filesystem::path source = arguments.start_from;
+  const std::filesystem::path folder = is_folder(source) ? source : source.parent_path();
+  std::error_code error;
+  if (std::filesystem::equivalent(folder.empty() ? "." : folder, directory, error))
+    throw SceneError(
+        fmt::format("--start-from {}: is the folder that the results go to, from which its own are moved aside; choose "
+                    "another with "
+                    "--out",
+                    arguments.start_from));
+  read_checkpoint_scene(is_folder(source) ? source / checkpoint_name : source);
+}
+
 // What of the command line is not in a checkpoint.
 std::vector<std::string> command_to_repeat(const char* program, const CommandLine& command_line) {
   std::vector<std::string> words{program};
@@ -137,6 +153,7 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   const Scene scene = scene_of(arguments);
   require_flow(app, scene, name);
   const std::filesystem::path directory = directory_of(arguments);
+  check_source(arguments, directory);
   if (arguments.plan) {
     if (const std::string reason = put_out(describe_plan(scene, command_line.threads(), directory)); !reason.empty())
       throw vesiflow::coupling::FileError("standard output: the plan cannot be written: " + reason);

@@ -333,7 +333,6 @@ std::optional<RunStatus> Run::wants_to_end() const {
 }
 
 void Run::report_quality() {
-  if (options_.quiet) return;
   for (const std::string& warning : record_.quality.warnings()) spdlog::warn("{}", warning);
 }
 
