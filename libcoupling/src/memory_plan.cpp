@@ -60,10 +60,13 @@ MemoryPlan plan_memory(const Scene& scene) {
   plan.membranes = table_bytes(scene);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) plan.membranes += membrane_bytes(scene, i);
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
-  if (scene.time.adaptive || scene.time.markers == "implicit") plan.steps = (viscosity.is_variable ? 5.0 : 4.0) * field;
+  const double remembered = (viscosity.is_variable ? 5.0 : 4.0) * field;
+  if (scene.time.adaptive || scene.time.markers == "implicit") plan.steps = remembered;
   // Two velocities and a pressure; four single precision numbers per cell.
   if (scene.output.checkpoint_every > 0.0) plan.output = 7.0 * field;
   if (scene.output.fluid_every > 0.0) plan.output = std::max(plan.output, 2.0 * field);
+  if (plan.steps == 0.0 && scene.follows_shape())
+    plan.steps = std::max(0.0, remembered - plan.output);  // of the start only
   if (plan.output > 0.0 || scene.output.vesicle_every > 0.0) plan.output += hdf5_bytes;
   return plan;
 }

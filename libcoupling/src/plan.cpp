@@ -331,6 +331,8 @@ void describe_step(Plan& plan, const Scene& scene) {
             implicit ? "with forces and velocities of the new time"
                      : "implicit in tension and bending, momentum of its corrections owed to the fluid",
             follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
+  plan.part(follows && !scene.time.adaptive, "start", "in parts of steps where shapes start far from rest",
+            follows ? "time.adaptive = true" : fmt::format("time.markers = \"{}\"", scene.time.markers));
   plan.part(tension && !follows, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"

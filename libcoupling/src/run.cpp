@@ -79,6 +79,7 @@ class Run {
   std::string scene_text() const;
   void rewind_files();
   void log_redistributions();
+  void log_start();
   void record(bool last);
   void take_step();
   void go_back(const SimulationStopped& reason);
@@ -193,6 +194,13 @@ void Run::log_redistributions() {
   }
 }
 
+void Run::log_start() {
+  if (options_.quiet || simulation_.steps() != 1 || simulation_.start_parts() == 0) return;
+  progress_->finish();
+  spdlog::info("shapes start far from rest: the first steps are taken in parts, the first of them in {}",
+               simulation_.start_parts());
+}
+
 void Run::checkpoint() {
   table_->flush_to_disk();
   vesicle_snapshots_->list();
@@ -298,6 +306,7 @@ void Run::take_step() {
   simulation_.step();
   ++record_.steps_taken;
   record_.quality.observe_step(simulation_);
+  log_start();
   log_redistributions();
   progress_->update(simulation_);
   record(simulation_.finished());

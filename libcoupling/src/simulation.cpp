@@ -17,6 +17,7 @@
 #include "immersed_vesicle.h"
 #include "implicit_step.h"
 #include "phase_timer.h"
+#include "start_control.h"
 #include "step_control.h"
 #include "viscosity_contrast.h"
 
@@ -88,7 +89,10 @@ Simulation::Simulation(const Scene& scene, const Flow& flow, FlowType type)
     for (std::size_t i = 0; i < vesicles_.size(); ++i)
       redistributions_.try_emplace(scene_.latitudes(i), scene_.latitudes(i), moving_degrees(scene_, i));
   last_redistributions_.reserve(vesicles_.size());
-  if (scene_.time.adaptive) step_control_ = std::make_unique<StepControl>(scene_);
+  if (scene_.time.adaptive)
+    step_control_ = std::make_unique<StepControl>(scene_);
+  else if (scene_.follows_shape())
+    start_control_ = std::make_unique<StartControl>();
   const bool walls_are_known = type != FlowType::custom;
   guard_ = std::make_unique<BlowUpGuard>(
       scene_, walls_are_known ? flow.greatest_speed : std::numeric_limits<double>::infinity());
@@ -148,6 +152,10 @@ double Simulation::membrane_speed(std::size_t i) const {
 
 bool Simulation::suspects_blow_up() const {
   return guard_->suspects();
+}
+
+long Simulation::start_parts() const {
+  return start_control_ ? start_control_->parts() : 0;
 }
 
 long Simulation::redistributions(std::size_t i) const {
@@ -235,7 +243,9 @@ SimulationState Simulation::state() const {
     const auto history = v->motion->history();
     state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
   }
+  state.clock.steps = steps();
   if (step_control_) state.step_control = step_control_->state();
+  if (start_control_) state.step_control = start_control_->state();
   return state;
 }
 
@@ -247,6 +257,7 @@ void Simulation::restore(const SimulationState& state) {
     throw std::invalid_argument(fmt::format("the state has started from {} vesicles, the scene has {}",
                                             state.start->membranes.size(), vesicles_.size()));
   fluid_.restore(state.velocity, state.previous_velocity, state.pressure, state.clock);
+  extra_steps_ = 0;
   if (state.start || start_) {  // what membranes keep of their start depends on it
     start_ = state.start;
     make_vesicles();
@@ -261,6 +272,7 @@ void Simulation::restore(const SimulationState& state) {
     v.interpolate(time_step(), fluid_.velocity());
   }
   if (step_control_) step_control_->restore(state.step_control);
+  if (start_control_) start_control_->restore(state.step_control);
   plan_last_step();
   last_redistributions_.clear();
 }

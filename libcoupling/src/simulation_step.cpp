@@ -12,6 +12,7 @@
 #include "immersed_vesicle.h"
 #include "implicit_step.h"
 #include "phase_timer.h"
+#include "start_control.h"
 #include "step_control.h"
 #include "viscosity_contrast.h"
 
@@ -28,6 +29,8 @@ void Simulation::step() {
   or_stop(scene_, [this] {
     if (step_control_)
       take_adaptive_step();
+    else if (start_control_ && start_control_->watches(steps()))
+      take_start_step();
     else
       take_step(scene_.time.step);
     check_growth();

@@ -129,6 +129,7 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   summary["time"] = simulation.time();
   summary["time_step"] = simulation.time_step();
   summary["rejected_steps"] = simulation.rejected_steps();
+  summary["start_parts"] = simulation.start_parts();
   summary["wall_seconds"] = record.wall.seconds;
   summary["seconds_per_step"] =
       record.steps_taken > 0 ? Json(record.wall.seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);

@@ -31,6 +31,8 @@ class ViscosityContrast {
   /// take_back() brings the field of the last remember() back, and forgets what has been added since the last update().
   void remember();
   void take_back();
+  /// Gives the memory of remember() back.
+  void forget() { remembered_.reset(); }
 
  private:
   std::vector<double> ratios_;

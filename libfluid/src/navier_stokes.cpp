@@ -31,6 +31,10 @@ void NavierStokes::remember() {
   stepper_->remember();
 }
 
+void NavierStokes::forget() {
+  stepper_->forget();
+}
+
 void NavierStokes::retry() {
   stepper_->retry();
 }

@@ -272,6 +272,11 @@ void Stepper::remember() {
   is_remembered_ = true;
 }
 
+void Stepper::forget() {
+  remembered_.reset();
+  is_remembered_ = false;
+}
+
 void Stepper::retry() {
   if (!is_remembered_ || clock.steps > remembered_->clock.steps + 1) {
     throw std::logic_error("fluid: retry() goes back by one step at most, to a state that remember() was called at");

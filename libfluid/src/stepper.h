@@ -26,6 +26,7 @@ class Stepper {
                const FluidClock& clock);
   void step(double dt);
   void remember();
+  void forget();
   void retry();
   std::string velocity_solver_name() const;
 

@@ -41,13 +41,14 @@ struct SimulationState {
   fluid::Field<fluid::Cell> pressure;
   fluid::FluidClock clock;
   std::vector<VesicleState> vesicles;
-  std::vector<double> step_control;    ///< of adaptive steps; empty if they are equal
+  std::vector<double> step_control;    ///< of adaptive steps, and of a start in parts; else empty
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the scene says
 };
 
 struct ImmersedVesicle;
 class ExternalForces;
 class ImplicitStep;
+class StartControl;
 class StepControl;
 struct StepErrors;
 class ViscosityContrast;
@@ -70,7 +71,8 @@ class Simulation {
 
   /// One time step (Steps 1 to 5 of the paper), of the scene's length or, if time.adaptive, as long as its errors allow: a step
   /// whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a look at the meshes and,
-  /// where one has passed a limit of the scene, its redistribution along the membrane.
+  /// where one has passed a limit of the scene, its redistribution along the membrane. With markers that follow the shape, the first of equal steps
+  /// are taken in parts where shapes start far from rest; each ends when it would have ended.
   /// \throws SimulationStopped when the state is not finite or grows by itself, a limit is passed or a marker meets a wall, with adaptive steps
   /// when that happens, or the errors are too large, at time.smallest_step: the state is then that before the step
   void step();
@@ -86,11 +88,13 @@ class Simulation {
   void set_time_step(double dt);
   /// Adaptive steps that were taken back.
   long rejected_steps() const { return rejected_steps_; }
+  /// Parts in which equal steps were taken as shapes started far from rest (shape_following, implicit); 0 where they were whole.
+  long start_parts() const;
   /// What moving the markers took.
   MarkerStatistics marker_statistics(std::size_t vesicle) const;
 
   double time() const { return fluid_.time(); }
-  long steps() const { return static_cast<long>(fluid_.steps()); }
+  long steps() const { return static_cast<long>(fluid_.steps()) - extra_steps_; }
   const Scene& scene() const { return scene_; }
 
   /// Redistributions that the last step ended with.
@@ -142,6 +146,9 @@ class Simulation {
   void take_step(double dt);
   void take_adaptive_step();
   bool try_step(double dt, std::string& failure);
+  void take_start_step();
+  bool try_part(double dt, double& change);
+  double rate_of(std::size_t vesicle);
   void weigh_step(std::size_t vesicle, StepErrors& errors);
   void remember();
   void take_back();
@@ -166,9 +173,12 @@ class Simulation {
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none
   std::vector<Redistribution> last_redistributions_;
   Phases phases_;
-  std::unique_ptr<ImplicitStep> implicit_step_;  ///< of time.markers = "implicit"
-  std::unique_ptr<StepControl> step_control_;    ///< of adaptive steps
-  std::vector<VesicleState> remembered_;         ///< before the step that is tried
+  std::unique_ptr<ImplicitStep> implicit_step_;   ///< of time.markers = "implicit"
+  std::unique_ptr<StepControl> step_control_;     ///< of adaptive steps
+  std::unique_ptr<StartControl> start_control_;   ///< of equal steps that start in parts where they must
+  std::vector<VesicleState> remembered_;          ///< before the step that is tried
+  std::vector<vesicle::ScalarField> curvatures_;  ///< the same, in a start
+  long extra_steps_ = 0;                          ///< of the fluid, by parts of steps
   long rejected_steps_ = 0;
   long last_step_ = 0;
   std::unique_ptr<BlowUpGuard> guard_;

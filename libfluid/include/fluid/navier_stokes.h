@@ -123,6 +123,8 @@ class NavierStokes {
   // no part of it. retry() throws std::logic_error if nothing is remembered, or more than one step ago.
   void remember();
   void retry();
+  // Gives the memory back; remember() takes it anew.
+  void forget();
 
   // Force density (per volume, dimensionless) at the faces, for the coming step. It is kept, not cleared, by
   // step(); only inner faces are read.
