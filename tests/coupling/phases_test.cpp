@@ -92,10 +92,13 @@ TEST_P(SwitchedOff, IsNeverEnteredAndAllocatesNothing) {
     Simulation simulation(scene);
     constexpr int warm_up = 3, steps = 3;
     for (int k = 0; k < warm_up; ++k) simulation.step();
-    const long before = vesiflow::test::allocation_count();
+    // The first step may have to be taken back, like an adaptive one (start_control.h).
+    const bool watches_start = part().name == std::string("adaptive_steps") && scene.follows_shape();
+    EXPECT_EQ(part().entries(simulation), watches_start ? 1 : 0) << markers;
+    const long before = vesiflow::test::allocation_count(), entered = part().entries(simulation);
     for (int k = 0; k < steps; ++k) simulation.step();
     EXPECT_EQ(vesiflow::test::allocation_count() - before, 0) << markers;
-    EXPECT_EQ(part().entries(simulation), 0) << markers;
+    EXPECT_EQ(part().entries(simulation) - entered, 0) << markers;
   }
 }
 

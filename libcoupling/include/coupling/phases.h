@@ -20,7 +20,7 @@ struct Phases {
   fluid::PhaseAccount thickness_correction;  ///< of the interpolated velocity
   fluid::PhaseAccount mesh;                  ///< velocity filter, move, target areas
   fluid::PhaseAccount redistribution;        ///< looks at the meshes and what follows from them
-  fluid::PhaseAccount adaptation;            ///< remembering and taking back of adaptive steps
+  fluid::PhaseAccount adaptation;            ///< remembering and taking back of adaptive steps, and of a start
   fluid::PhaseAccount diagnostics;
 };
 
