@@ -38,7 +38,10 @@ vesicle::Membrane make_membrane(const Scene& scene, std::size_t i, const vesicle
   const int latitudes = scene.latitudes(i);
   vesicle::Membrane membrane(start != nullptr ? start->positions : initial_markers(scene.vesicles[i], latitudes),
                              latitudes, membrane_parameters(scene, i));
-  if (start != nullptr) membrane.restore(*start);
+  if (start != nullptr) {
+    membrane.restore(*start);
+    membrane.keep_target_area();
+  }
   return membrane;
 }
 

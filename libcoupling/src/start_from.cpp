@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "coupling/checkpoint.h"
@@ -44,6 +45,19 @@ void require_fit(const Scene& run, const Scene& scene, const std::filesystem::pa
                       "same in the run and in this scene",
                       file.string(), "xyz"[axis]));
   }
+}
+
+// The radius of the scene is the unit of its tolerances, and what its warnings and the search for a blow-up go by.
+void require_size(const vesicle::MembraneState& membrane, std::size_t i, const Scene& scene,
+                  const std::filesystem::path& file) {
+  constexpr double tolerance = 0.01;
+  const double radius = std::cbrt(0.75 * membrane.initial_volume / std::numbers::pi), given = scene.vesicles[i].radius;
+  if (std::abs(radius - given) <= tolerance * radius) return;
+  throw SceneError(
+      fmt::format("--start-from {}: vesicles.{}.radius = {:g}: the vesicle of the run has the effective radius "
+                  "{:.4g}, and tolerances go by this key: allowed is what is within 1 % of it\n"
+                  "  set vesicles.{}.radius = {:.4g}, --set vesicles.{}.radius={:.4g}",
+                  file.string(), i, given, radius, i, radius, i, radius));
 }
 
 // Strains by a factor; the areas that they are against then follow, with the membrane as it is.
@@ -114,6 +128,7 @@ void start_from(const std::filesystem::path& run, Simulation& simulation) {
     for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
       start->membranes.push_back(membrane_of(contents, scene, i, pattern.vesicles[i].membrane));
       require_inside(start->membranes[i].positions, i, scene, file);
+      require_size(start->membranes[i], i, scene, file);
     }
     simulation.start(start, pattern.velocity, pattern.pressure);
   } catch (const std::logic_error& error) {  // a membrane without a geometry on the new mesh

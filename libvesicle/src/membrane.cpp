@@ -127,7 +127,8 @@ void Membrane::advance(const VectorField& new_positions, const VectorField& velo
   if (relaxes_strain() || integral_) strain_ = (surface_.area_weight() / target_areas_).log();
   if (tension_force_) {
     ++entries_.target_areas;
-    target_area_update_.apply(surface_, velocity, filtered, dt, initial_area_, target_areas_);
+    target_area_update_.apply(surface_, velocity, filtered, dt, kept_target_area_.value_or(initial_area_),
+                              target_areas_);
   }
   if (relaxes_strain()) lagged_strain_ += parameters_.strain_relaxation * (strain_ - lagged_strain_);
   if (integral_) integral_->advance(strain_, dt, integral_tension_);
@@ -162,6 +163,10 @@ RedistributionReport Membrane::redistribute(MeshRedistribution& redistribution) 
   initial_area_ = initial_areas_.sum();  // to the last bit, as restore() takes it
   conserve();
   return report;
+}
+
+void Membrane::keep_target_area() {
+  kept_target_area_ = target_areas_.sum();
 }
 
 double Membrane::energy() const {

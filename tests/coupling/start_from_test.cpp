@@ -117,6 +117,42 @@ TEST_F(StartFrom, AFinerGridAndMeshHaveTheSameVesicle) {
   EXPECT_NEAR(fine.measure()[0].volume_error, a.volume_error, 1e-6) << "kept against the volume of the run";
 }
 
+// Over the membrane.
+double mean_tension(Simulation& simulation) {
+  const vesicle::Membrane& membrane = simulation.membrane(0);
+  const vesicle::ScalarField& area = membrane.surface().area_weight();
+  return simulation.scene().sigma0(0) * ((area / membrane.target_areas()).log() * area).sum() / area.sum();
+}
+
+// The strain of a run that follows the shape has a mean that is not of its area, and one that is scaled has another.
+TEST_F(StartFrom, MaterialMarkersKeepTheMeanTension) {
+  const CheckpointContents end = read_checkpoint(first_ / "checkpoint.h5");
+  Simulation run_itself(end.scene);
+  run_itself.restore(end.state);
+  const double tension = mean_tension(run_itself);
+  for (const char* markers : {"euler", "ab2", "strain_relaxation", "arkode"})
+    for (const char* g : {"3", "6"}) {
+      SCOPED_TRACE(std::string(markers) + ", g = " + g);
+      const Scene scene =
+          scene_with({std::string("time.markers=") + markers, std::string("membrane.g=") + g, "time.step='1/4096'"});
+      Simulation simulation(scene);
+      start_from(first_, simulation);
+      const double total = simulation.membrane(0).target_areas().sum();
+      ASSERT_GT(std::abs(total / simulation.membrane(0).initial_area() - 1.0), 1e-4) << "nothing to lose";
+      EXPECT_NEAR(mean_tension(simulation), tension, 1e-3 * std::abs(tension));
+      simulation.step();
+      EXPECT_NEAR(simulation.membrane(0).target_areas().sum(), total, 1e-13 * total);
+      EXPECT_NEAR(mean_tension(simulation), tension, 1e-2 * std::abs(tension));
+
+      write_checkpoint(folder_ / "one_step.h5", simulation);
+      Simulation restarted(scene);
+      restore_checkpoint(folder_ / "one_step.h5", restarted);
+      for (Simulation* each : {&simulation, &restarted}) each->step();
+      EXPECT_TRUE((restarted.membrane(0).target_areas() == simulation.membrane(0).target_areas()).all());
+      EXPECT_EQ(largest_difference(restarted.state(), simulation.state()), 0.0);
+    }
+}
+
 // What the scene says of the shape counts no more: another reduced volume is not striven for, not by a restarted run either.
 TEST_F(StartFrom, RestartedAndRepeatedRunsHaveTheSameBits) {
   const Scene scene = scene_with({"vesicles.0.reduced_volume=0.8", "membrane.area=projection", "domain.cells=24",
@@ -186,6 +222,12 @@ TEST_F(StartFrom, WhatDoesNotFitIsRefusedByName) {
   mirrored.domain.mirror[1] = true;
   mirrored.domain.cells[1] = 10;
   expect(refusal(first_, mirrored), "domain.mirror and domain.lower of axis y");
+  Scene larger = scene;
+  larger.vesicles[0].radius = 1.011;
+  expect(refusal(first_, larger), "vesicles.0.radius = 1.011: the vesicle of the run has the effective radius 1,");
+  expect(refusal(first_, larger), "set vesicles.0.radius = 1, --set vesicles.0.radius=1");
+  larger.vesicles[0].radius = 1.009;
+  EXPECT_EQ(refusal(first_, larger), "none");
   Simulation other(scene_with({"membrane.g=4"}));
   try {
     restore_checkpoint(first_ / "checkpoint.h5", other);

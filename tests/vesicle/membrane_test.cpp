@@ -84,6 +84,25 @@ TEST(Membrane, VolumeIsKeptByProjection) {
   EXPECT_NEAR(membrane.target_areas().sum(), membrane.initial_area(), 1e-12);
 }
 
+/// A mean strain from elsewhere stays with a membrane that is told to keep it, also where another state is restored.
+TEST(Membrane, KeepsTheTargetAreaThatItIsTold) {
+  for (const bool told : {false, true}) {
+    Membrane membrane(start(), latitudes, {});
+    MembraneState state = membrane.state();
+    state.target_areas *= 0.98;
+    const double strained = state.target_areas.sum();
+    membrane.restore(state);
+    if (told) membrane.keep_target_area();
+    const double kept = told ? strained : membrane.initial_area();
+    step(membrane);
+    EXPECT_NEAR(membrane.target_areas().sum(), kept, 1e-13 * kept);
+    state.target_areas *= 1.01;
+    membrane.restore(state);
+    step(membrane);
+    EXPECT_NEAR(membrane.target_areas().sum(), kept, 1e-13 * kept);
+  }
+}
+
 TEST(Membrane, TargetAreasRestWithoutTension) {
   Membrane membrane(start(), latitudes, {.sigma0 = 0});
   for (int k = 0; k < 3; ++k) step(membrane);

@@ -114,6 +114,10 @@ class Membrane {
   /// number. Updates the geometry before and after. `redistribution` must have the same number of latitudes.
   RedistributionReport redistribute(MeshRedistribution& redistribution);
 
+  /// From now on advance() scales the target areas to the sum that they have now, in the place of the initial area: for a
+  /// membrane whose strain has a mean from elsewhere, which would go in one step otherwise. restore() leaves that sum alone.
+  void keep_target_area();
+
   const MembraneParameters& parameters() const { return parameters_; }
   const Surface& surface() const { return surface_; }
   const VectorField& positions() const { return positions_; }
@@ -162,6 +166,7 @@ class Membrane {
   ScalarField tension_, target_areas_, initial_areas_;
   ScalarField strain_, lagged_strain_, integral_tension_;  // empty where not needed
   double initial_area_ = 0;
+  std::optional<double> kept_target_area_;  // see keep_target_area()
   double initial_volume_ = 0;
   MembraneEntries entries_;
 };
