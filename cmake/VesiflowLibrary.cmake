@@ -53,6 +53,7 @@ function(vesiflow_library name)
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/common)
+  target_link_libraries(${target} PRIVATE ${CMAKE_DL_LIBS})  # of common/short_waits.cpp
   # An install takes what is built. This return leaves the library's own script of the install, and so skips what follows.
   install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
     message(STATUS \"lib${name} is not built, so it is not installed\")

@@ -14,7 +14,7 @@ int run_program(const std::function<ExitCode()>& body) {
     say("error: {}{}\n", prefix, message);
     return code;
   };
-  keep_standard_streams();
+  vesiflow::keep_standard_streams();
   try {
     return body();
   } catch (const CommandLineError& error) {

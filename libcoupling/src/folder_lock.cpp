@@ -19,13 +19,10 @@
 #include "atomic_file.h"
 #include "coupling/errors.h"
 #include "descriptor.h"
+#include "system_message.h"
 
 namespace vesiflow::coupling {
 namespace {
-
-std::string system_message() {
-  return std::generic_category().message(errno);
-}
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -155,7 +152,7 @@ bool create(const std::filesystem::path& file, const std::string& text) {
   const int error = errno;
   if (descriptor.valid()) unlink(temporary.c_str());
   if (linked) return true;
-  if (!written) throw cannot_be_written(file.parent_path(), std::generic_category().message(error));
+  if (!written) throw cannot_be_written(file.parent_path(), system_message(error));
   // ENOENT: who has the folder has removed the temporary file.
   if (error == EEXIST || error == ENOENT) return false;
   return create_at_its_place(file, text);

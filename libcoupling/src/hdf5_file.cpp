@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <new>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "coupling/errors.h"
+#include "system_message.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -56,7 +56,7 @@ std::string system_error() {
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find, &cause);
   if (cause.number == 0) return "";
-  return std::generic_category().message(cause.number) +
+  return system_message(cause.number) +
          (cause.lock ? "; it cannot be locked, which is not needed: set HDF5_USE_FILE_LOCKING=FALSE in the environment"
                      : "");
 }

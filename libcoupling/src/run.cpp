@@ -435,7 +435,6 @@ int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("vesiflow"));
   spdlog::set_pattern("%^%l%$: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
-  std::signal(SIGPIPE, SIG_IGN);  // so does writing what nobody reads any more
   spare_hdf5_at_exit();
   try {
     return program(argc, argv);

@@ -16,7 +16,9 @@ constexpr const char* harmonics_form =
 
 // The number that is all of the text, whatever the decimal sign of the host program's locale; not a number if there is none.
 double number_in(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  constexpr std::string_view blank = " \t";
+  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
+  text.remove_suffix(text.size() - 1 - text.find_last_not_of(blank));  // of blanks alone nothing: npos + 1 is 0
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = nan_value;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

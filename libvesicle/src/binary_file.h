@@ -5,9 +5,15 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace vesiflow::vesicle {
+
+/// The file, open for reading. One that is no file of a disk (a folder, a pipe, a device) is refused: it could not be read
+/// twice, and may never end.
+/// @throws std::runtime_error if it cannot be opened.
+std::ifstream opened(const std::filesystem::path& path);
 
 /// @throws std::runtime_error if the file cannot be read.
 std::string contents_of(const std::filesystem::path& path);

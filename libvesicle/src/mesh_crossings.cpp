@@ -53,14 +53,17 @@ void check_no_crossings(const TriangleMesh& mesh) {
         if (a == b) return true;
     return false;
   };
-  // Along x, a triangle meets those that begin before it ends.
+  // Along an axis, a triangle meets those that begin before it ends: the fewest where the mesh is longest.
+  if (triangles == 0) return;
+  Eigen::Index axis = 0;
+  (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff(&axis);
   std::vector<std::size_t> order(triangles);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&boxes](std::size_t t) { return boxes[t].low[0]; });
+  std::ranges::sort(order, {}, [&boxes, axis](std::size_t t) { return boxes[t].low[axis]; });
   for (auto first = order.begin(); first != order.end(); ++first)
     for (auto second = first + 1; second != order.end(); ++second) {
       const Box &a = boxes[*first], &b = boxes[*second];
-      if (b.low[0] > a.high[0]) break;
+      if (b.low[axis] > a.high[axis]) break;
       if ((b.low > a.high).any() || (a.low > b.high).any() || share_a_vertex(*first, *second)) continue;
       if (!cross(corners[*first], corners[*second])) continue;
       throw std::domain_error("triangle mesh: triangles " + std::to_string(std::min(*first, *second)) + " and " +

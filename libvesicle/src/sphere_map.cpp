@@ -50,6 +50,10 @@ Plane planar_embedding(const TriangleMesh& mesh, Eigen::Index outer) {
   Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const SparseSolver solver(matrix);
+  if (solver.info() != Eigen::Success)
+    throw std::domain_error(
+        "triangle mesh: the equations of its map to the sphere are singular: every vertex must belong to triangles, "
+        "and all of them to one surface");
   const Eigen::MatrixX2d solution = solver.solve(right);
   for (Eigen::Index i = 0; i < vertices; ++i)
     if (unknown[std::size_t(i)] >= 0) positions.row(i) = solution.row(unknown[std::size_t(i)]).array();
@@ -114,6 +118,7 @@ void relax(const TriangleMesh& mesh, VectorField& map) {
   for (int step = 0, idle = 0; step < most_steps && idle < 3; ++step) {
     energy.gradient(map, gradient);
     solver.factorize(energy.stiffness(map));
+    if (solver.info() != Eigen::Success) break;  // the map is one-to-one already, only not the best
     VectorField descent = -solver.solve(gradient.matrix()).array();
     descent -= map.colwise() * (map * descent).rowwise().sum();
     const double norm = -(descent * gradient).sum();

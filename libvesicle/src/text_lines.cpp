@@ -6,6 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "binary_file.h"
+
 namespace vesiflow::vesicle {
 namespace {
 
@@ -21,10 +23,7 @@ bool parse(std::string_view word, Number& value) {
 }  // namespace
 
 TextLines::TextLines(std::filesystem::path path, Continuation continuation)
-    : path_(std::move(path)), stream_(path_), continuation_(continuation) {
-  if (!stream_ || std::filesystem::is_directory(path_))
-    throw std::runtime_error(path_.string() + ": cannot be read: no such file, or no permission");
-}
+    : path_(std::move(path)), stream_(opened(path_)), continuation_(continuation) {}
 
 void TextLines::skip_byte_order_mark() {
   if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff"))

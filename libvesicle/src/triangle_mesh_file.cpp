@@ -22,8 +22,7 @@ struct Content {
 };
 
 std::string first_bytes(const std::filesystem::path& path, std::size_t count) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(path)) fail_in(path, "cannot be read: no such file, or no permission");
+  std::ifstream stream = opened(path);
   std::string bytes(count, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(count));
   bytes.resize(static_cast<std::size_t>(stream.gcount()));
@@ -64,6 +63,13 @@ std::string_view foreign_format(std::string_view head) {
   return {};
 }
 
+/// The first line says it, and nothing else.
+bool is_ply(std::string_view head) {
+  const std::string_view line = head.substr(0, head.find_first_of("\r\n"));
+  return line.size() < head.size() && line.starts_with("ply") &&
+         line.find_first_not_of(" \t", 3) == std::string_view::npos;
+}
+
 bool is_obj_keyword(std::string_view word) {
   constexpr std::array<std::string_view, 16> keywords{"v", "vt", "vn",     "vp",     "f",      "l",  "p",   "o",
                                                       "g", "s",  "usemtl", "mtllib", "usemap", "mg", "lod", "maplib"};
@@ -74,7 +80,7 @@ Content content_of(const std::filesystem::path& path) {
   const std::string head = first_bytes(path, 84);
   if (is_binary_stl(path, head)) return {Format::binary_stl, {}};
   if (const std::string_view name = foreign_format(head); !name.empty()) return {Format::foreign, name};
-  if (head.starts_with("ply\n") || head.starts_with("ply\r")) return {Format::ply, {}};
+  if (is_ply(head)) return {Format::ply, {}};
   TextLines file(path);
   if (!file.next()) return {};
   if (is_off_keyword(file.words()[0])) return {Format::off, {}};

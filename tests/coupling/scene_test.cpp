@@ -129,6 +129,13 @@ TEST(Scene, TensionNumberIsAnotherWayToGiveSigma0) {
   expect_parts(message_of(text, {"membrane.g=1e308"}), {"membrane.g = 1e+308", "too large"});
 }
 
+TEST(Scene, FractionsMayHaveBlanks) {
+  for (const char* step : {"1/192", "1 / 192", " 1\t/ 192 "})
+    EXPECT_EQ(parse(std::string("[time]\nstep = \"") + step + "\"\n" + sphere).time.step, 1.0 / 192) << step;
+  for (const char* step : {" / 192", "1 / ", "1 9/2", "/"})
+    expect_parts(message_of(std::string("[time]\nstep = \"") + step + "\"\n" + sphere), {"time.step"});
+}
+
 TEST(Scene, WritesItselfAndReadsBackTheSame) {
   const std::string vesicle = "[[vesicles]]\nshape = \"prolate\"\nreduced_volume = 0.9\nrotation_deg = 30\n";
   const Scene scene = parse("title = \"a \\\"quoted\\\" title\"\n[time]\nstep = \"1/384\"\n" + vesicle);

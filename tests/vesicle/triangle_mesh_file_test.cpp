@@ -1,5 +1,7 @@
 #include "vesicle/triangle_mesh_file.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -246,6 +248,23 @@ TEST(TriangleMeshFile, ReadsPlyInItsThreeForms) {
   expect_tetrahedron("a.ply", ply(PlyForm::little));
   expect_tetrahedron("a.ply", ply(PlyForm::big));
   expect_tetrahedron("a.dat", ply(PlyForm::big));
+  expect_tetrahedron("a.ply", ply(PlyForm::ascii).insert(3, " \t"));
+}
+
+// They may never end, and a pipe waits for who writes.
+TEST(TriangleMeshFile, RefusesWhatIsNoFileOfADisk) {
+  const std::string reason = "cannot be read: a folder, a pipe or a device; give a file on a disk";
+  const TextFile file("pipe.ply");
+  std::filesystem::remove(file.path());
+  ASSERT_EQ(mkfifo(file.path().c_str(), 0600), 0);
+  for (const std::filesystem::path& path :
+       {file.path(), std::filesystem::path("/dev/zero"), std::filesystem::temp_directory_path()})
+    try {
+      read_triangle_mesh(path);
+      ADD_FAILURE() << path;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), path.string() + ": " + reason);
+    }
 }
 
 TEST(TriangleMeshFile, RefusesDamagedPly) {
