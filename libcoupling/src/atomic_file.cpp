@@ -9,15 +9,12 @@
 
 #include "coupling/errors.h"
 #include "descriptor.h"
+#include "system_message.h"
 
 namespace vesiflow::coupling {
 namespace {
 
 constexpr const char* temporary_ending = ".part";
-
-std::string system_message() {
-  return std::generic_category().message(errno);
-}
 
 // Without it the rename can reach the disk before the data does, and a power cut leaves an empty file.
 void flush_to_disk(const std::filesystem::path& file) {

@@ -18,6 +18,7 @@
 #include "descriptor.h"
 #include "folder_lock.h"
 #include "snapshot_series.h"
+#include "system_message.h"
 #include "vesicle_record.h"
 
 namespace vesiflow::coupling {
@@ -36,7 +37,7 @@ long step_of(const std::string& row, const std::filesystem::path& file) {
 }
 
 FileError not_written(const std::filesystem::path& file) {
-  return FileError(fmt::format("{}: cannot be written: {}", file.string(), std::generic_category().message(errno)));
+  return FileError(fmt::format("{}: cannot be written: {}", file.string(), system_message()));
 }
 
 // One write call for all rows; of rows for which there is no room nothing is left.
