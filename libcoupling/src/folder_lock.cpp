@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
@@ -15,6 +16,7 @@
 #include <iterator>
 #include <sstream>
 #include <system_error>
+#include <thread>
 
 #include "atomic_file.h"
 #include "coupling/errors.h"
@@ -23,6 +25,19 @@
 
 namespace vesiflow::coupling {
 namespace {
+
+// What is tried again, because others do the same at that moment or because a file cannot be read just then.
+constexpr int most_tries = 20;
+
+void wait_a_little() {
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+// A link to nothing is there too. What the system cannot tell counts as being there.
+bool is_there(const std::filesystem::path& file) {
+  std::error_code error;
+  return std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found;
+}
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -47,6 +62,19 @@ Process process_of(long pid) {
   std::array<std::string, 20> field;
   for (std::string& f : field) fields >> f;
   return {field.front(), field.back()};
+}
+
+// As a lock says it; such texts can be compared.
+std::string text_of_time(std::time_t time) {
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(time));
+}
+
+// When this machine was started; empty where /proc does not show it.
+std::string boot_time() {
+  std::ifstream lines("/proc/stat");
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with("btime ")) return text_of_time(std::atol(line.c_str() + 6));
+  return {};
 }
 
 // What a lock says. A process is known by all of these: hosts share names, processes in containers numbers, and numbers are used
@@ -81,7 +109,7 @@ Owner Owner::here() {
           std::filesystem::read_symlink("/proc/self/ns/pid", none).string(),
           std::to_string(getpid()),
           process_of(getpid()).start,
-          fmt::format("{:%Y-%m-%d %H:%M:%S} UTC", fmt::gmtime(std::time(nullptr)))};
+          text_of_time(std::time(nullptr))};
 }
 
 std::string Owner::text() const {
@@ -110,8 +138,10 @@ enum class Fate { runs, is_gone, is_unknown };
 Fate fate_of(const Owner& owner) {
   const Owner here = Owner::here();
   if (owner.host != here.host || owner.machine != here.machine) return Fate::is_unknown;
-  // Without an identity of the machine, another start may be another machine of that name.
-  if (owner.boot != here.boot) return here.machine.empty() ? Fate::is_unknown : Fate::is_gone;
+  // Another start may be another machine: of that name, without an identity, or with the same one where both are copies of an image.
+  // What began after this machine was started is certainly not of an earlier start of it.
+  if (owner.boot != here.boot)
+    return here.machine.empty() || owner.since >= boot_time() ? Fate::is_unknown : Fate::is_gone;
   if (owner.numbering != here.numbering) return Fate::is_unknown;
   const long pid = std::atol(owner.pid.c_str());
   if (pid <= 0) return Fate::is_unknown;
@@ -141,6 +171,12 @@ bool create_at_its_place(const std::filesystem::path& file, const std::string& t
   throw cannot_be_written(file.parent_path(), reason);
 }
 
+// Over a network the answer to a link that was made may be lost, and the question asked again: the second answer is that it is there.
+bool is_linked(const Descriptor& descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && status.st_nlink == 2;
+}
+
 // Whether the file was made, with that text; false if it is there already. It is written under another name and linked: whatever
 // moment a kill comes at, the file is whole or not there.
 bool create(const std::filesystem::path& file, const std::string& text) {
@@ -148,8 +184,9 @@ bool create(const std::filesystem::path& file, const std::string& text) {
   const auto ending = static_cast<int>(temporary_of("").string().size());
   const Descriptor descriptor(mkostemps(temporary.data(), ending, O_CLOEXEC));
   const bool written = write_whole(descriptor, text);
-  const bool linked = written && fchmod(descriptor, 0644) == 0 && link(temporary.c_str(), file.c_str()) == 0;
+  const bool answered = written && fchmod(descriptor, 0644) == 0 && link(temporary.c_str(), file.c_str()) == 0;
   const int error = errno;
+  const bool linked = answered || (written && is_linked(descriptor));
   if (descriptor.valid()) unlink(temporary.c_str());
   if (linked) return true;
   if (!written) throw cannot_be_written(file.parent_path(), system_message(error));
@@ -183,12 +220,18 @@ void remove_stale(const std::filesystem::path& file, const std::string& text, co
     if (text_of(file) == text) unlink(file.c_str());
   } else {
     const std::string found = text_of(turn);
-    if (found.empty() && !std::filesystem::exists(turn)) return;
+    if (found.empty() && !is_there(turn)) return;
     const std::optional<Owner> owner = Owner::parse(found);
     const Fate fate = owner ? fate_of(*owner) : Fate::is_unknown;
     if (fate != Fate::is_gone) refuse(turn, owner, fate);
   }
   unlink(turn.c_str());
+}
+
+FileError comes_and_goes(const std::filesystem::path& file) {
+  return FileError(fmt::format(
+      "{}: could not be made in {} tries: others make and remove it; try again, or choose another folder with --out",
+      file.string(), most_tries));
 }
 
 std::filesystem::path made(const std::filesystem::path& folder) {
@@ -202,9 +245,13 @@ std::filesystem::path made(const std::filesystem::path& folder) {
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : folder_(made(folder)), file_(folder_ / name), text_(Owner::here().text()) {
-  while (!create(file_, text_)) {
+  for (int tries = 1; !create(file_, text_); ++tries) {
+    if (tries > most_tries) throw comes_and_goes(file_);
     const std::string found = text_of(file_);
-    if (found.empty() && !std::filesystem::exists(file_)) continue;  // its owner has just ended
+    if (found.empty() && !is_there(file_)) {  // its owner has just ended
+      wait_a_little();
+      continue;
+    }
     const std::optional<Owner> owner = Owner::parse(found);
     const Fate fate = owner ? fate_of(*owner) : Fate::is_unknown;
     if (fate != Fate::is_gone) refuse(file_, owner, fate);
@@ -218,9 +265,15 @@ FolderLock::~FolderLock() {
 }
 
 void FolderLock::require_held() const {
-  const std::string found = text_of(file_);
-  if (found == text_ || (found.empty() && create(file_, text_))) return;
-  refuse(file_, Owner::parse(found), Fate::runs);
+  for (int tries = 1; tries <= most_tries; ++tries) {
+    const std::string found = text_of(file_);
+    if (found == text_ || (!is_there(file_) && create(file_, text_))) return;
+    if (const auto owner = Owner::parse(found)) refuse(file_, owner, Fate::runs);
+    wait_a_little();  // too many open files, a file server that is away
+  }
+  throw FileError(fmt::format(
+      "{}: cannot be read: the folder may be another run's by now; if it is not, restart when the file can be read",
+      file_.string()));
 }
 
 }  // namespace vesiflow::coupling

@@ -8,7 +8,7 @@ namespace vesiflow::coupling {
 
 /// Keeps a folder for one run: a file `run.lock` that says whose it is. It appears whole, by a hard link (or
 /// O_EXCL), which network file systems honour too, and needs no flock. What a process that is gone has left (same machine; no such process, or a later one with its
-/// number, or the machine has been started anew) is taken over; of another machine nobody can tell from here.
+/// number, or the machine has been started anew since) is taken over; of another machine nobody can tell from here.
 class FolderLock {
  public:
   static constexpr const char* name = "run.lock";
@@ -26,7 +26,8 @@ class FolderLock {
   /// Who left the lock that was taken over, if there was one.
   const std::optional<std::string>& taken_from() const { return taken_from_; }
 
-  /// \throws FileError when somebody has removed the lock and another run has taken the folder, or the folder is gone
+  /// \throws FileError when somebody has removed the lock and another run has taken the folder, or the folder is gone, or the lock
+  /// cannot be read for some time
   void require_held() const;
 
  private:

@@ -8,12 +8,14 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <memory>
 #include <new>
 
 #include "atomic_file.h"
 #include "coupling/checkpoint.h"
 #include "coupling/errors.h"
 #include "coupling/start_from.h"
+#include "file_error.h"
 #include "folder_lock.h"
 #include "hdf5_file.h"
 #include "phase_timer.h"
@@ -73,6 +75,10 @@ class Run {
     return options_.checkpoint && std::filesystem::equivalent(*options_.checkpoint, checkpoint_file(), error);
   }
 
+  // Whether what the run begins with is in its folder, where another run may be writing it.
+  bool begins_in_own_directory() const;
+
+  void take_folder();
   void restore();
   bool is_complete() const;
   void start();
@@ -88,6 +94,7 @@ class Run {
   void warn_of_resolution();
   void checkpoint();
   void finish(const std::string& status);
+  void finish_stopped(const std::string& reason);
   [[noreturn]] void stop(const SimulationStopped& reason);
   bool may_go_back() const;
   void report_quality();
@@ -125,6 +132,23 @@ void require_hdf5(const Scene::Output& output) {
   refuse("output.checkpoint_every", output.checkpoint_every);
 }
 
+bool Run::begins_in_own_directory() const {
+  const auto& beginning = options_.checkpoint ? options_.checkpoint : options_.start_from;
+  if (!beginning) return false;
+  std::error_code error;
+  const auto same = [&](const std::filesystem::path& a, const std::filesystem::path& b) {
+    return std::filesystem::equivalent(a, b, error);
+  };
+  return same(*beginning, directory_) || same(*beginning, checkpoint_file()) ||
+         same(std::filesystem::absolute(*beginning).parent_path(), directory_);
+}
+
+void Run::take_folder() {
+  lock_.emplace(options_.directory);
+  directory_ = lock_->folder();
+  if (const auto& owner = lock_->taken_from()) spdlog::info("taken over from a run that is gone ({})", *owner);
+}
+
 void Run::restore() {
   if (!options_.checkpoint) return;
   restore_checkpoint(*options_.checkpoint, simulation_);
@@ -140,15 +164,13 @@ bool Run::is_complete() const {
 void Run::start() {
   if (options_.checkpoint)
     spdlog::info("continuing from {} at step {}, t = {:.6g}; results go on in {}", options_.checkpoint->string(),
-                 simulation_.steps(), simulation_.time(), directory_.string());
+                 simulation_.steps(), simulation_.time(), options_.directory.string());
   if (options_.start_from) {
     start_from(*options_.start_from, simulation_);
     const Start& start = *simulation_.started_from();
     spdlog::info("starting from {}, at its t = {:.6g} after {} steps", start.run, start.time, start.steps);
   }
-  lock_.emplace(options_.directory);
-  directory_ = lock_->folder();
-  if (const auto& owner = lock_->taken_from()) spdlog::info("taken over from a run that is gone ({})", *owner);
+  if (!lock_) take_folder();
   remove_leftovers(directory_);
   const bool own = continues_own_directory();
   if (own) checkpointed_step_ = simulation_.steps();
@@ -203,8 +225,6 @@ void Run::log_start() {
 
 void Run::checkpoint() {
   table_->flush_to_disk();
-  vesicle_snapshots_->list();
-  fluid_snapshots_->list();
   write_checkpoint(checkpoint_file(), simulation_);
   last_checkpoint_ = named_checkpoint();
   checkpointed_step_ = simulation_.steps();
@@ -292,12 +312,20 @@ void Run::finish(const std::string& status) {
   write_summary(directory_, options_, simulation_, record_);
 }
 
+// The reason goes into the summary if that can be written, which on a full disk it cannot.
+void Run::finish_stopped(const std::string& reason) {
+  record_.stop_reason = reason;
+  try {
+    finish("stopped");
+  } catch (const FileError&) {
+  }
+}
+
 void Run::stop(const SimulationStopped& reason) {
   const std::string message = fmt::format(
       "stopped in step {} at t = {:.6g}: {}\n  likely cause: {}\n  last good checkpoint: {}", simulation_.steps() + 1,
       simulation_.time(), reason.what(), reason.advice(), last_checkpoint_ ? last_checkpoint_->string() : "none yet");
-  record_.stop_reason = message;
-  finish("stopped");
+  finish_stopped(message);
   throw SimulationStopped(message, reason.advice());
 }
 
@@ -314,12 +342,14 @@ void Run::take_step() {
 
 bool Run::may_go_back() const {
   const Scene::Limits& limits = simulation_.scene().limits;
+  std::error_code error;
   return limits.on_blowup == OnBlowUp::reduce_step && static_cast<int>(record_.retries.size()) < limits.retries &&
-         std::filesystem::exists(checkpoint_file());
+         std::filesystem::exists(checkpoint_file(), error);
 }
 
 // The checkpoint may be of longer steps than those that have just failed.
 void Run::go_back(const SimulationStopped& reason) {
+  lock_->require_held();
   RunRecord::Retry retry{simulation_.steps() + 1, simulation_.time(), reason.what(), 0,
                          0.5 * simulation_.scene().time.step};
   simulation_.set_time_step(read_checkpoint_scene(checkpoint_file()).time.step);
@@ -346,7 +376,8 @@ void Run::report_quality() {
 }
 
 bool Run::can_go_on() const {
-  return last_checkpoint_ && std::filesystem::exists(*last_checkpoint_);
+  std::error_code error;
+  return last_checkpoint_ && std::filesystem::exists(*last_checkpoint_, error);
 }
 
 std::string Run::command_to_go_on() const {
@@ -362,23 +393,20 @@ void Run::say_how_to_go_on(RunStatus end) const {
                            : "there is nothing to go on from: output.checkpoint_every = 0 writes no checkpoints");
 }
 
-// The reason goes into the summary if that can be written, which on a full disk it cannot.
 void Run::fail(const FileError& error) {
-  if (!table_) throw error;  // nothing has been computed yet
+  if (!fluid_snapshots_) throw error;  // nothing has been computed yet
   const std::string message = can_go_on()
                                   ? fmt::format("{}\n  last good checkpoint: {}; when the cause is gone, go on with {}",
                                                 error.what(), last_checkpoint_->string(), command_to_go_on())
                                   : fmt::format("{}\n  last good checkpoint: none yet", error.what());
-  record_.stop_reason = message;
-  try {
-    finish("stopped");
-  } catch (const FileError&) {
-  }
+  finish_stopped(message);
   throw FileError(message);
 }
 
 RunStatus Run::execute() {
   require_hdf5(simulation_.scene().output);
+  const StopRequest guard;
+  if (begins_in_own_directory()) take_folder();
   restore();
   if (is_complete()) {
     spdlog::info(
@@ -387,7 +415,6 @@ RunStatus Run::execute() {
         simulation_.time(), 2.0 * simulation_.time());
     return RunStatus::completed;
   }
-  const StopRequest guard;
   start();
   progress_.emplace(options_.quiet, simulation_);
   try {
@@ -415,6 +442,14 @@ RunStatus Run::execute() {
   return *end;
 }
 
+// Loggers have names of their own: a second one of that name is refused.
+void set_logger() {
+  constexpr const char* name = "vesiflow";
+  const std::shared_ptr<spdlog::logger> known = spdlog::get(name);
+  spdlog::set_default_logger(known ? known : spdlog::stderr_color_mt(name));
+  spdlog::set_pattern("%^%l%$: %v");
+}
+
 }  // namespace
 
 RunStatus run(Simulation& simulation, const RunOptions& options) {
@@ -423,6 +458,8 @@ RunStatus run(Simulation& simulation, const RunOptions& options) {
     return run.execute();
   } catch (const FileError& error) {
     run.fail(error);
+  } catch (const std::filesystem::filesystem_error& failure) {
+    run.fail(file_error(failure));
   }
 }
 
@@ -432,11 +469,10 @@ int exit_code::of(RunStatus status) {
 
 int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   keep_standard_streams();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("vesiflow"));
-  spdlog::set_pattern("%^%l%$: %v");
   std::signal(SIGXFSZ, SIG_IGN);  // beyond `ulimit -f` writing fails, instead of ending the program
   spare_hdf5_at_exit();
   try {
+    set_logger();
     return program(argc, argv);
   } catch (const SceneError& error) {
     spdlog::error("{}", error.what());

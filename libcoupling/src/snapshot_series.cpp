@@ -5,9 +5,11 @@
 #include <charconv>
 #include <optional>
 #include <string_view>
+#include <system_error>
 
 #include "atomic_file.h"
 #include "coupling/errors.h"
+#include "file_error.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -43,8 +45,17 @@ void refuse_earlier_format(const std::filesystem::path& list) {
 
 SnapshotSeries::SnapshotSeries(std::filesystem::path directory, Kind kind)
     : directory_(std::move(directory)), kind_(std::move(kind)) {
-  refuse_earlier_format(directory_ / (kind_.name + ".h5"));
-  const std::filesystem::path folder = directory_ / snapshots_folder;
+  try {
+    find();
+  } catch (const std::filesystem::filesystem_error& failure) {
+    throw file_error(failure);
+  }
+}
+
+void SnapshotSeries::find() {
+  const std::filesystem::path list = directory_ / (kind_.name + ".h5"), folder = directory_ / snapshots_folder;
+  refuse_earlier_format(list);
+  if (std::filesystem::exists(list)) listed_.reset();
   if (!std::filesystem::exists(folder)) return;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (const auto step = step_of(entry.path().filename().string(), kind_.name))
@@ -67,17 +78,23 @@ void SnapshotSeries::write(long step, double time) {
     file.close();
   });
   steps_[step] = time;
-  if (steps_.size() > listed_ + listed_ / share_not_listed) list();
+  const std::size_t listed = listed_.value_or(0);
+  if (steps_.size() > listed + listed / share_not_listed) list();
 }
 
 void SnapshotSeries::drop_after(long step) {
   const auto later = steps_.upper_bound(step);
   const std::map<long, double> dropped(later, steps_.end());
   steps_.erase(later, steps_.end());
-  if (!dropped.empty()) listed_ = 0;
+  if (!dropped.empty()) listed_.reset();
   list();
   // The last first, so that a kill leaves no gap.
-  for (auto it = dropped.rbegin(); it != dropped.rend(); ++it) std::filesystem::remove(directory_ / file_of(it->first));
+  for (auto it = dropped.rbegin(); it != dropped.rend(); ++it) {
+    const std::filesystem::path file = directory_ / file_of(it->first);
+    std::error_code error;
+    std::filesystem::remove(file, error);
+    if (error) throw FileError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
+  }
 }
 
 void SnapshotSeries::list() {

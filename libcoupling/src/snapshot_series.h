@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "hdf5_file.h"
@@ -25,25 +26,27 @@ class SnapshotSeries {
   };
 
   /// Goes on with the snapshots that are in the directory.
-  /// \throws FileError when NAME.h5 is of an earlier version, which kept the snapshots in it, or a snapshot cannot be read
+  /// \throws FileError when NAME.h5 is of an earlier version, which kept the snapshots in it, or a snapshot or its folder cannot be read
   SnapshotSeries(std::filesystem::path directory, Kind kind);
 
   /// -1 if there is none.
   long last_step() const { return steps_.empty() ? -1 : steps_.rbegin()->first; }
   /// The lists follow now or, of many snapshots, a little later.
   void write(long step, double time);
-  /// Removes the snapshots after `step` and brings the lists up to date.
+  /// Brings the lists up to date, then removes the snapshots after `step`.
+  /// \throws FileError when one cannot be removed
   void drop_after(long step);
   /// Brings the lists up to date.
   void list();
 
  private:
+  void find();
   std::string file_of(long step) const;
 
   std::filesystem::path directory_;
   Kind kind_;
-  std::map<long, double> steps_;  // step -> time
-  std::size_t listed_ = 0;
+  std::map<long, double> steps_;           // step -> time
+  std::optional<std::size_t> listed_ = 0;  // how many the lists name; nothing where they may name others
 };
 
 /// The folder of the snapshots.

@@ -5,23 +5,30 @@
 
 #include <array>
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 
 namespace vesiflow::coupling {
 namespace {
 
-// May be set in a signal handler.
-std::atomic<int> requested{0};
-std::atomic<time_t> requested_at{0};
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<time_t>::is_always_lock_free);
+// The signal that has come, in the lowest byte (0 if none has), and above it the second in which it came. It may be set in a signal
+// handler, in two threads at once: in one word, so that nobody sees a signal with the second of another.
+std::atomic<std::int64_t> seen{0};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+constexpr int signal_bits = 8;
+
+int signal_in(std::int64_t word) {
+  return static_cast<int>(word & ((1 << signal_bits) - 1));
+}
 
 // Twice within a second or two is once: timeout(1) and closing terminals signal a process and its group.
 void request(int signal) {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
-  if (requested.exchange(signal) != signal) {
-    requested_at = now.tv_sec;
-  } else if (now.tv_sec > requested_at + 1) {
+  const std::int64_t before = seen;
+  if (signal_in(before) != signal) {
+    seen = static_cast<std::int64_t>(now.tv_sec) << signal_bits | signal;
+  } else if (now.tv_sec > (before >> signal_bits) + 1) {
     ::signal(signal, SIG_DFL);
     raise(signal);
   }
@@ -53,7 +60,7 @@ void set(Handled& entry) {
 StopRequest::StopRequest() {
   const std::lock_guard guard(mutex);
   if (alive++ > 0) return;
-  requested = 0;
+  seen = 0;
   for (Handled& entry : handled) set(entry);
 }
 
@@ -64,7 +71,7 @@ StopRequest::~StopRequest() {
 }
 
 int StopRequest::signal() {
-  return requested;
+  return signal_in(seen);
 }
 
 }  // namespace vesiflow::coupling

@@ -1,18 +1,34 @@
 #include "folder_lock.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <initializer_list>
 #include <random>
 #include <regex>
 #include <sstream>
+#include <thread>
 
 #include "coupling/errors.h"
+
+namespace {
+
+bool answers_are_lost = false;
+
+}  // namespace
+
+// In place of the system's: a link over a network of which the answer may be lost, and which is then asked for once more.
+extern "C" int link(const char* from, const char* to) noexcept {
+  const int result = linkat(AT_FDCWD, from, AT_FDCWD, to, 0);
+  return result == 0 && answers_are_lost ? linkat(AT_FDCWD, from, AT_FDCWD, to, 0) : result;
+}
 
 namespace vesiflow::coupling {
 namespace {
@@ -49,10 +65,13 @@ class FolderLockTest : public testing::Test {
 
   fs::path lock() const { return folder_ / "run.lock"; }
 
-  // What the lock says of an owner is changed: `line` is all of it, as in "pid = 7".
-  void rewrite(const std::string& line) const {
-    const std::string name = line.substr(0, line.find(" = "));
-    std::ofstream(lock()) << std::regex_replace(text_ + "\n", std::regex("(^|\n)" + name + " = [^\n]*"), "$1" + line);
+  // What the lock says of an owner is changed: each line is all of it, as in "pid = 7".
+  void rewrite(std::initializer_list<std::string> lines) const {
+    std::string text = text_ + "\n";
+    for (const std::string& line : lines)
+      text =
+          std::regex_replace(text, std::regex("(^|\n)" + line.substr(0, line.find(" = ")) + " = [^\n]*"), "$1" + line);
+    std::ofstream(lock()) << text;
   }
   // The lock of a process that is alive (this one), as a file only.
   void leave_lock() {
@@ -99,7 +118,7 @@ TEST_F(FolderLockTest, OneOfManyProcessesThatStartAtOnceGetsIt) {
   for (const bool stale : {false, true}) {
     leave_lock();
     if (stale)
-      rewrite("process_start = 1");
+      rewrite({"process_start = 1"});
     else
       fs::remove(lock());
     int go[2], done[2];
@@ -162,7 +181,7 @@ TEST_F(FolderLockTest, KilledAtAnyMomentLeavesNothingInTheWay) {
   const fs::path memory = "/dev/shm/vesiflow_lock_" + std::to_string(getpid());
   const fs::path folder = fs::exists("/dev/shm") ? memory : folder_;  // where locks are made fast
   leave_lock();
-  rewrite("process_start = 1");
+  rewrite({"process_start = 1"});
   fs::create_directories(folder);
   fs::copy_file(lock(), folder / "stale");
   std::minstd_rand chance(1);
@@ -186,19 +205,64 @@ TEST_F(FolderLockTest, KilledAtAnyMomentLeavesNothingInTheWay) {
 TEST_F(FolderLockTest, KnowsANumberThatIsUsedAgainAndAMachineThatWasStartedAnew) {
   leave_lock();
   EXPECT_NE(refusal(), "");
-  for (const char* line : {"process_start = 1", "boot = 00000000-0000-0000-0000-000000000000", "pid = 4194303"}) {
-    if (line[0] == 'b' && text_of("/etc/machine-id").empty()) continue;
-    rewrite(line);
+  const auto expect_taken_over = [&] {
     const FolderLock held(folder_);
-    ASSERT_TRUE(held.taken_from()) << line;
+    ASSERT_TRUE(held.taken_from()) << text_of(lock());
     EXPECT_NE(held.taken_from()->find("process "), std::string::npos);
+  };
+  for (const char* line : {"process_start = 1", "pid = 4194303"}) {
+    rewrite({line});
+    expect_taken_over();
   }
+  if (text_of("/etc/machine-id").empty()) return;
+  rewrite({"boot = 00000000-0000-0000-0000-000000000000", "since = 2001-01-01 00:00:00 UTC"});
+  expect_taken_over();
+}
+
+/// Copies of an image of a machine share its name and its identity. What began after this one was started is not of this one.
+TEST_F(FolderLockTest, DoesNotTakeACopyOfThisMachineForAnEarlierStartOfIt) {
+  leave_lock();
+  rewrite({"boot = 00000000-0000-0000-0000-000000000000"});
+  const std::string message = refusal();
+  EXPECT_NE(message.find("cannot be looked up from here"), std::string::npos) << message;
+}
+
+TEST_F(FolderLockTest, IsMadeThoughTheAnswerIsLost) {
+  answers_are_lost = true;
+  const std::string message = refusal();
+  answers_are_lost = false;
+  EXPECT_EQ(message, "");
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(FolderLockTest, IsRefusedWhereItIsALinkToNothing) {
+  fs::create_symlink("/nonexistent/lock", lock());
+  EXPECT_NE(refusal().find("remove the file"), std::string::npos) << refusal();
+  fs::remove(lock());
+  leave_lock();
+  rewrite({"process_start = 1"});
+  fs::create_symlink("/nonexistent/lock", folder_ / "run.lock.takeover");
+  EXPECT_NE(refusal().find("run.lock.takeover"), std::string::npos) << refusal();
+}
+
+TEST_F(FolderLockTest, IsHeldThoughItCannotBeReadForAMoment) {
+  const FolderLock held(folder_);
+  fs::copy_file(lock(), folder_ / "kept");
+  std::ofstream(lock(), std::ios::trunc).flush();
+  std::thread mending([&] {
+    usleep(50000);
+    fs::rename(folder_ / "kept", lock());
+  });
+  EXPECT_NO_THROW(held.require_held());
+  mending.join();
+  std::ofstream(lock(), std::ios::trunc).flush();
+  EXPECT_THROW(held.require_held(), FileError);
 }
 
 TEST_F(FolderLockTest, DoesNotJudgeOtherMachinesAndWhatItCannotRead) {
   leave_lock();
   for (const char* line : {"host = elsewhere", "machine = another", "numbering = pid:[1]"}) {
-    rewrite(line);
+    rewrite({line});
     const std::string message = refusal();
     EXPECT_NE(message.find("if that run is no more, remove " + lock().string()), std::string::npos) << message;
     EXPECT_TRUE(fs::exists(lock()));

@@ -138,6 +138,33 @@ TEST_F(Snapshots, OfLaterStepsAreDroppedAndNoOthersTouched) {
   EXPECT_EQ(Hdf5File(folder_ / "thing.h5", Hdf5File::Mode::read).read_number("/steps/000000008", "time"), 8.5);
 }
 
+TEST_F(Snapshots, AreNamedByNoListWhenTheyAreGone) {
+  const auto expect_none_listed = [&] {
+    EXPECT_FALSE(Hdf5File(folder_ / "thing.h5", Hdf5File::Mode::read).exists("/steps"));
+    EXPECT_EQ(text_of(folder_ / "thing.xdmf").find("thing_0"), std::string::npos);
+  };
+  SnapshotSeries all = series();
+  for (const int step : {4, 8}) all.write(step, step);
+  all.drop_after(3);
+  expect_none_listed();
+  all.write(4, 4.0);
+  EXPECT_EQ(listed(), 1);
+  fs::remove_all(folder_ / "snapshots");  // to save room
+  series().drop_after(8);
+  expect_none_listed();
+}
+
+TEST_F(Snapshots, ThatCannotBeReadOrRemovedAreErrorsOfFiles) {
+  SnapshotSeries all = series();
+  all.write(8, 8.0);
+  fs::remove(snapshot("000000008"));
+  fs::create_directories(snapshot("000000008") / "in the way");
+  EXPECT_THROW(all.drop_after(0), FileError);
+  fs::remove_all(folder_ / "snapshots");
+  std::ofstream(folder_ / "snapshots") << "not a folder";
+  EXPECT_THROW(series(), FileError);
+}
+
 /// Versions before kept the snapshots in the file that is a list now: it is not written over.
 TEST_F(Snapshots, OfEarlierVersionsAreRefusedAndKept) {
   {
