@@ -31,8 +31,9 @@ forbid "apps include public headers only" '(\.\./)*lib[a-z]+/|.*(src|detail)/' a
 # What an app includes in quotes is a file of the apps, a public header, or the version that the build writes.
 while IFS=: read -r file included; do
   [[ $included == build_info.h ]] && continue
-  if [[ -z $(find apps -path "*/$included") ]] && ! compgen -G "lib*/include/$included" >/dev/null; then
-    echo "apps include public headers only: $file includes \"$included\"" >&2
+  if [[ -z $(find apps -path "*/$included") ]] && ! compgen -G "lib*/include/$included" >/dev/null &&
+    [[ ! -e common/$included ]]; then
+    echo "apps include public headers and common/ only: $file includes \"$included\"" >&2
     failed=1
   fi
 done < <(grep -rE --include='*.h' --include='*.cpp' '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' apps |
