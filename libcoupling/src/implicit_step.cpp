@@ -6,7 +6,7 @@
 
 namespace vesiflow::coupling {
 
-ImplicitStep::ImplicitStep(const Scene& scene, std::span<const std::unique_ptr<ImmersedVesicle>> vesicles)
+ImplicitStep::ImplicitStep(const SimulationParameters& parameters, std::span<const std::unique_ptr<ImmersedVesicle>> vesicles)
     : vesicles_(vesicles) {
   std::size_t size = 0;
   for (const auto& v : vesicles_) {
@@ -14,7 +14,7 @@ ImplicitStep::ImplicitStep(const Scene& scene, std::span<const std::unique_ptr<I
     size += motions_.back()->unknowns();
   }
   increments_.resize(size);
-  fixed_point_ = make_fixed_point(size, {scene.time.implicit_tolerance, scene.time.implicit_iterations});
+  fixed_point_ = make_fixed_point(size, {parameters.time.implicit_tolerance, parameters.time.implicit_iterations});
 }
 
 void ImplicitStep::take(double dt, const std::function<void(bool again)>& evaluate) {

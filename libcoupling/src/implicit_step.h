@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fixed_point.h"
-#include "immersed_vesicle.h"
+#include "step/immersed_vesicle.h"
 #include "implicit_motion.h"
 
 namespace vesiflow::coupling {
@@ -16,7 +16,7 @@ namespace vesiflow::coupling {
 class ImplicitStep {
  public:
   /// For vesicles whose motions are ImplicitMotion.
-  ImplicitStep(const Scene& scene, std::span<const std::unique_ptr<ImmersedVesicle>> vesicles);
+  ImplicitStep(const SimulationParameters& parameters, std::span<const std::unique_ptr<ImmersedVesicle>> vesicles);
 
   /// Takes the vesicles, at the predicted state with forces there, to the end of the step. `evaluate` computes the fluid for the
   /// membranes as they stand, and advances them in it; `again` is false where forces and fluid are those of the prediction.

@@ -69,13 +69,22 @@ class AdamsBashforth2 final : public MarkerIntegrator {
 
 }  // namespace
 
-std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size,
+std::unique_ptr<MarkerIntegrator> make_marker_integrator(MarkerMotion motion, std::size_t size,
                                                          const MarkerTolerances& tolerances) {
-  if (name == "euler" || name == "strain_relaxation") return std::make_unique<Euler>(size);
-  if (name == "ab2") return std::make_unique<AdamsBashforth2>(size);
-  if (name == "arkode") return make_arkode_integrator(size, tolerances);
-  throw std::invalid_argument("marker integrator '" + std::string(name) +
-                              "': allowed are euler, ab2, arkode, strain_relaxation");
+  switch (motion) {
+    case MarkerMotion::euler:
+    case MarkerMotion::strain_relaxation:
+      return std::make_unique<Euler>(size);
+    case MarkerMotion::ab2:
+      return std::make_unique<AdamsBashforth2>(size);
+    case MarkerMotion::arkode:
+      return make_arkode_integrator(size, tolerances);
+    case MarkerMotion::shape_following:
+    case MarkerMotion::implicit:
+      break;
+  }
+  throw std::invalid_argument(
+      "not a marker integrator: allowed are MarkerMotion::euler, ab2, arkode and strain_relaxation");
 }
 
 }  // namespace vesiflow::coupling

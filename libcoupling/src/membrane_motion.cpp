@@ -6,9 +6,9 @@
 
 #include "coupling/marker_integrator.h"
 #include "implicit_motion.h"
-#include "mirror_symmetry.h"
+#include "transfer/mirror_symmetry.h"
 #include "shape_following.h"
-#include "step_error.h"
+#include "step/step_error.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -17,16 +17,16 @@ namespace {
 // and target areas follow their slip.
 class MaterialMotion final : public MembraneMotion {
  public:
-  MaterialMotion(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane)
-      : interpolates_in_time_(scene.time.fluid_velocity == FluidVelocity::interpolated),
-        has_stages_(scene.time.markers == "arkode"),
-        symmetry_(scene, membrane.positions()),
+  MaterialMotion(const SimulationParameters& parameters, std::size_t vesicle, const vesicle::Membrane& membrane)
+      : interpolates_in_time_(parameters.time.fluid_velocity == FluidVelocity::interpolated),
+        has_stages_(parameters.time.markers == MarkerMotion::arkode),
+        symmetry_(parameters, membrane.positions()),
         positions_(membrane.positions()),
         displacement_(positions_),
         integrator_(make_marker_integrator(
-            scene.time.markers, static_cast<std::size_t>(positions_.size()),
-            {scene.time.relative_tolerance, scene.time.absolute_tolerance * scene.vesicles[vesicle].radius})) {
-    if (scene.time.adaptive) error_.emplace(positions_.rows());
+            parameters.time.markers, static_cast<std::size_t>(positions_.size()),
+            {parameters.time.relative_tolerance, parameters.time.absolute_tolerance * parameters.vesicles[vesicle].radius})) {
+    if (parameters.time.adaptive) error_.emplace(positions_.rows());
     filtered_velocity_ = [this](double fraction, std::span<const double> state, std::span<double> velocity) {
       evaluate(fraction, Eigen::Map<const vesicle::VectorField>(state.data(), positions_.rows(), 3));
       Eigen::Map<vesicle::VectorField>(velocity.data(), positions_.rows(), 3) = step_.velocities->membrane;
@@ -109,11 +109,11 @@ class MaterialMotion final : public MembraneMotion {
 
 }  // namespace
 
-std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::size_t vesicle,
+std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
                                                      const vesicle::Membrane& membrane) {
-  if (scene.time.markers == "shape_following") return std::make_unique<ShapeFollowing>(scene, vesicle, membrane);
-  if (scene.time.markers == "implicit") return std::make_unique<ImplicitMotion>(scene, vesicle, membrane);
-  return std::make_unique<MaterialMotion>(scene, vesicle, membrane);
+  if (parameters.time.markers == MarkerMotion::shape_following) return std::make_unique<ShapeFollowing>(parameters, flow, vesicle, membrane);
+  if (parameters.time.markers == MarkerMotion::implicit) return std::make_unique<ImplicitMotion>(parameters, flow, vesicle, membrane);
+  return std::make_unique<MaterialMotion>(parameters, vesicle, membrane);
 }
 
 }  // namespace vesiflow::coupling

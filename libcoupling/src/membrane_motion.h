@@ -5,8 +5,9 @@
 #include <optional>
 #include <span>
 
+#include "coupling/flow.h"
 #include "coupling/marker_integrator.h"
-#include "coupling/scene.h"
+#include "coupling/simulation_parameters.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {
@@ -29,7 +30,7 @@ struct MarkerVelocities {
   vesicle::VectorField membrane;  ///< U~, with the degrees that this motion keeps of it: what strains the membrane
 };
 
-/// Parts of a motion that a scene can switch off, and how often they were entered.
+/// Parts of a motion that parameters can switch off, and how often they were entered.
 struct MotionEntries {
   std::int64_t strain = 0, conservation = 0;
 };
@@ -77,8 +78,8 @@ class MembraneMotion {
   virtual void restart() {}
 };
 
-/// The motion that time.markers names, for the membrane of that vesicle of the scene.
-std::unique_ptr<MembraneMotion> make_membrane_motion(const Scene& scene, std::size_t vesicle,
+/// The motion that time.markers names, for the membrane of that vesicle.
+std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
                                                      const vesicle::Membrane& membrane);
 
 }  // namespace vesiflow::coupling

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "delta_functions.h"
+#include "transfer/delta_functions.h"
 
 namespace vesiflow::coupling {
 namespace {

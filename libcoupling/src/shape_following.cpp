@@ -45,15 +45,15 @@ constexpr double safety_per_ratio = 3.0, viscous_memory = 0.5, safety_of_thin_fl
 constexpr double layer_of_curvature = 4.0;
 
 // Of waves that the fluid's grid resolves on a sphere.
-int grid_degrees(const Scene& scene, double radius) {
+int grid_degrees(const SimulationParameters& parameters, double radius) {
   constexpr double largest_kh = 0.7 * std::numbers::pi;
-  return static_cast<int>(largest_kh * radius / scene.spacing());
+  return static_cast<int>(largest_kh * radius / parameters.spacing());
 }
 
 // A correction of the thickness makes the answer that of a thin membrane.
-MembraneResponse::SecondMoments thickness(const Scene& scene) {
-  if (scene.coupling.thickness_correction) return {};
-  return MembraneResponse::second_moments(scene.coupling.kernel);
+MembraneResponse::SecondMoments thickness(const SimulationParameters& parameters) {
+  if (parameters.coupling.thickness_correction) return {};
+  return MembraneResponse::second_moments(parameters.coupling.kernel);
 }
 
 }  // namespace
@@ -62,25 +62,25 @@ Eigen::Map<Eigen::VectorXd> ShapeFollowing::as_vector(Coefficients& c) {
   return {reinterpret_cast<double*>(c.block(0, 0)), Eigen::Index(c.fields()) * c.degrees() * (c.degrees() + 1)};
 }
 
-int ShapeFollowing::resolved_degrees(const Scene& scene, std::size_t vesicle, double radius) {
-  const int latitudes = scene.latitudes(vesicle);
-  const int chosen = scene.mesh.normal_degrees > 0 ? scene.mesh.normal_degrees : vesicle::two_thirds_degrees(latitudes);
-  return std::max(4, std::min(chosen, grid_degrees(scene, radius)));
+int ShapeFollowing::resolved_degrees(const SimulationParameters& parameters, std::size_t vesicle, double radius) {
+  const int latitudes = parameters.latitudes(vesicle);
+  const int chosen = parameters.mesh.normal_degrees > 0 ? parameters.mesh.normal_degrees : vesicle::two_thirds_degrees(latitudes);
+  return std::max(4, std::min(chosen, grid_degrees(parameters, radius)));
 }
 
-ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const vesicle::Membrane& membrane)
+ShapeFollowing::ShapeFollowing(const SimulationParameters& parameters, const Flow& flow, std::size_t number, const vesicle::Membrane& membrane)
     : sigma0_(membrane.parameters().sigma0),
       bending_(0.25 / membrane.parameters().capillary_number),
-      reynolds_number_(scene.fluid.reynolds_number),
+      reynolds_number_(parameters.fluid.reynolds_number),
       radius_(std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi))),
-      has_inertia_(scene.fluid.inertia != fluid::Inertia::none),
-      is_thin_(scene.coupling.thickness_correction),
-      extrapolates_viscosity_(scene.fluid.viscous_treatment == fluid::ViscousTreatment::extrapolated),
-      keeps_volume_(scene.membrane.volume == vesicle::VolumeControl::projection),
-      symmetry_(scene, membrane.positions()),
-      harmonics_(resolved_degrees(scene, number, radius_), membrane.surface().grid(), fields()),
-      response_(std::max(harmonics_.degrees(), grid_degrees(scene, radius_)), radius_, scene.finest_spacing(),
-                thickness(scene)),
+      has_inertia_(parameters.fluid.inertia != fluid::Inertia::none),
+      is_thin_(parameters.coupling.thickness_correction),
+      extrapolates_viscosity_(parameters.fluid.viscous_treatment == fluid::ViscousTreatment::extrapolated),
+      keeps_volume_(parameters.membrane.volume == vesicle::VolumeControl::projection),
+      symmetry_(parameters, membrane.positions()),
+      harmonics_(resolved_degrees(parameters, number, radius_), membrane.surface().grid(), fields()),
+      response_(std::max(harmonics_.degrees(), grid_degrees(parameters, radius_)), radius_, parameters.finest_spacing(),
+                thickness(parameters)),
       operator_([this](const Gmres::Vector& x, Gmres::Vector& result) { apply_operator(x, result); }),
       stiffness_(static_cast<std::size_t>(harmonics_.degrees())) {
   const Eigen::Index markers = membrane.positions().rows();
@@ -93,29 +93,29 @@ ShapeFollowing::ShapeFollowing(const Scene& scene, std::size_t number, const ves
   correction_ = older_correction_ = increment_coefficients_ = predicted_coefficients_ = coefficients_;
   correction_.set_zero();
   older_correction_.set_zero();
-  set_units(scene.vesicles[number].radius);
-  solved_viscosity_ = 0.5 * (1.0 + scene.viscosity_ratio(number));
+  set_units(parameters.vesicles[number].radius);
+  solved_viscosity_ = 0.5 * (1.0 + parameters.viscosity_ratio(number));
   explicit_viscosity_ = 0.0;
-  if (scene.has_viscosity_contrast() && has_inertia_ &&
-      scene.fluid.viscous_treatment != fluid::ViscousTreatment::implicit) {
+  if (parameters.has_viscosity_contrast() && has_inertia_ &&
+      parameters.fluid.viscous_treatment != fluid::ViscousTreatment::implicit) {
     double largest = 1.0;
-    for (std::size_t i = 0; i < scene.vesicles.size(); ++i) largest = std::max(largest, scene.viscosity_ratio(i));
+    for (std::size_t i = 0; i < parameters.vesicles.size(); ++i) largest = std::max(largest, parameters.viscosity_ratio(i));
     explicit_viscosity_ = largest - solved_viscosity_;
     solved_viscosity_ = largest;
     const double share = explicit_viscosity_ / solved_viscosity_;
     lagging_viscosity_ = safety_per_ratio * share * (solved_viscosity_ - 1.0);
-    if (extrapolates_viscosity_ && scene.viscosity_ratio(number) < 1.0)
+    if (extrapolates_viscosity_ && parameters.viscosity_ratio(number) < 1.0)
       lagging_viscosity_ += safety_of_thin_fluid * share;
     remembered_viscosity_ =
-        explicit_viscosity_ * (scene.viscosity_ratio(number) < 1.0 ? memory_of_thin_fluid : viscous_memory);
+        explicit_viscosity_ * (parameters.viscosity_ratio(number) < 1.0 ? memory_of_thin_fluid : viscous_memory);
   }
   vesicle::Conserved conserved;
   if (keeps_volume_) conserved.volume = membrane.initial_volume();
-  if (scene.flow.type != FlowType::custom) strain_rate_ = flow_of(scene).greatest_gradient;
+  strain_rate_ = flow.greatest_gradient;
   const double v = vesicle::reduced_volume(membrane.initial_area(), membrane.initial_volume());
   excess_area_ = std::max(0.0, 1.0 / std::cbrt(v * v) - 1.0);
-  ties_strain_ = has_tension() && scene.membrane.volume != vesicle::VolumeControl::none;
-  keeps_area_ = has_tension() || scene.membrane.area == vesicle::AreaControl::projection;
+  ties_strain_ = has_tension() && parameters.membrane.volume != vesicle::VolumeControl::none;
+  keeps_area_ = has_tension() || parameters.membrane.area == vesicle::AreaControl::projection;
   volume_.emplace(membrane.surface().grid(), conserved, smooth_degrees);
   if (keeps_area_) conserved.area = membrane.initial_area();
   volume_and_area_.emplace(membrane.surface().grid(), conserved, smooth_degrees);

@@ -6,7 +6,7 @@
 #include "gmres.h"
 #include "membrane_motion.h"
 #include "membrane_response.h"
-#include "mirror_symmetry.h"
+#include "transfer/mirror_symmetry.h"
 #include "vesicle/conservation.h"
 #include "vesicle/spherical_harmonics.h"
 
@@ -48,7 +48,7 @@ namespace vesiflow::coupling {
 /// (their waves would grow on the slip).
 class ShapeFollowing : public MembraneMotion {
  public:
-  ShapeFollowing(const Scene& scene, std::size_t vesicle, const vesicle::Membrane& membrane);
+  ShapeFollowing(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle, const vesicle::Membrane& membrane);
 
   bool predict(double dt, vesicle::Membrane& membrane) override;
   void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
@@ -65,7 +65,7 @@ class ShapeFollowing : public MembraneMotion {
   void restart() override;
 
   /// Degrees of the spherical harmonics that positions and strain keep.
-  static int resolved_degrees(const Scene& scene, std::size_t vesicle, double radius);
+  static int resolved_degrees(const SimulationParameters& parameters, std::size_t vesicle, double radius);
 
  protected:
   // Columns of a state: X, and s if there is tension.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "coupling/repulsion.h"
+#include "coupling/simulation_parameters.h"
+#include "fluid/grid.h"
+#include "step/immersed_vesicle.h"
+
+namespace vesiflow::coupling {
+
+/// The forces on membranes that are not their own: buoyancy and repulsion. Costs nothing where the scene has none.
+class ExternalForces {
+ public:
+  ExternalForces(const SimulationParameters& parameters, const fluid::Grid& grid,
+                 std::span<const std::unique_ptr<ImmersedVesicle>> vesicles);
+
+  /// Whether the scene has some; without, there is nothing to compute().
+  bool any() const { return !repelled_.empty(); }
+
+  /// Sets ImmersedVesicle::force of all vesicles, whose own forces are up to date.
+  void compute();
+
+  /// Force of all membranes on the fluid, component by component, with what their motions owe it.
+  fluid::Vector3 total() const;
+
+ private:
+  std::span<const std::unique_ptr<ImmersedVesicle>> vesicles_;
+  std::vector<vesicle::Vector3> weights_;  // density difference times gravity; empty without gravity
+  std::optional<Repulsion> repulsion_;
+  std::vector<RepelledMembrane> repelled_;
+};
+
+}  // namespace vesiflow::coupling
