@@ -48,11 +48,40 @@ show_steps() {
   done
 }
 
-# Of a log: the first failure of a build or of the tests, and the last lines.
+# Of a log: the first failures of a build or of the tests, and the last lines.
 show_failure() {
-  sed -nE '/^FAILED: |\*\*\*(Failed|Timeout|Exception)/,$p' "$1" | head -n 40 || true
+  first_failures "$1"
   echo "... and the last lines of $1, which has it all:"
   tail -n 20 "$1"
+}
+
+# Of a build what ninja says from the first "FAILED:" on. Of ctest the first three tests that failed: of those of GoogleTest the
+# assertions that failed, each with the lines that belong to it, and the names; of others the first and last lines that they print.
+first_failures() {
+  awk -v most_tests=3 -v most_lines=40 -v most_of_assertion=12 '
+    function show(line) { if (shown++ < most_lines) print line }
+    function end_of_test(i) {
+      for (i = 1; in_test && !assertions && i <= printed; ++i)
+        if (i <= most_lines / 2 || i > printed - most_lines / 2) print lines[i]
+        else if (i == most_lines / 2 + 1) print "..."
+      in_test = printed = assertions = within = shown = 0
+    }
+    !in_test && /^FAILED: / { in_build = 1 }
+    in_build { show($0); next }
+    /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / || /^[0-9.]+% tests passed/ {
+      end_of_test()
+      in_test = /\*\*\*(Failed|Timeout|Exception|Not Run)/
+      if (in_test && ++tests > most_tests) exit
+      if (in_test) print
+      next
+    }
+    !in_test { next }
+    { lines[++printed] = $0 }
+    /: Failure$/ { within = most_of_assertion; ++assertions }
+    /^\[ / || /^$/ { within = 0 }
+    /^\[  FAILED  \] / { ++assertions; show($0) }
+    within > 0 { --within; show($0) }
+    END { if (tests <= most_tests) end_of_test() }' "$1"
 }
 
 # The widest of the levels of x86-64 that this machine runs, as -march= names it; elsewhere nothing. (glibc's loader knows.)

@@ -10,7 +10,8 @@
 #include <map>
 #include <regex>
 #include <sstream>
-#include <thread>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "coupling/checkpoint.h"
@@ -490,27 +491,24 @@ TEST_F(RunTest, RefusesSnapshotsThatCannotBeRead) {
   EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("run"), at("run") / "checkpoint.h5"), FileError);
 }
 
-// Calls `harm` in the first step of a run and returns what the run says.
+// Calls `harm` after the first step of a run and returns what the run says.
 std::string error_of_run(const fs::path& folder, const std::function<void()>& harm,
                          const Scene& scene = small_scene({"time.end=0.1", "output.diagnostics_every=1/96"})) {
   Simulation simulation(scene);
   RunOptions options;
   options.directory = folder;
   options.quiet = true;
-  std::thread other([&] {
-    while (!fs::exists(folder / "diagnostics.csv")) std::this_thread::yield();
-    harm();
-  });
-  std::string error;
+  options.after_step = [&](const Simulation& now) {
+    if (now.steps() == 1) harm();
+  };
   try {
     run(simulation, options);
   } catch (const FileError& failure) {
-    error = failure.what();
+    return failure.what();
   } catch (const SimulationStopped& reason) {
-    error = reason.what();
+    return reason.what();
   }
-  other.join();
-  return error;
+  return "";
 }
 
 TEST_F(RunTest, StopsWhereAnotherRunHasTakenItsFolder) {
@@ -551,6 +549,47 @@ TEST_F(RunTest, WritesWhereItBeganThoughTheProcessMoves) {
   fs::current_path(before);
   EXPECT_EQ(error, "");
   EXPECT_TRUE(fs::exists(at("run") / "checkpoint.h5"));
+}
+
+TEST_F(RunTest, CallsBackAfterEachStepAndBeforeEachOutput) {
+  const Scene scene =
+      small_scene({"time.step=1/32", "time.end=0.125", "output.diagnostics_every=1/32", "output.vesicle_every=1/16",
+                   "output.fluid_every=0", "output.checkpoint_every=0.125"});
+  Simulation simulation(scene);
+  RunOptions options;
+  options.directory = at("run");
+  options.quiet = true;
+  std::string calls;
+  options.after_step = [&](const Simulation& now) { calls += " " + std::to_string(now.steps()); };
+  options.before_output = [&](const Simulation&, RunOutput output) {
+    calls += std::string("dvfc").at(static_cast<std::size_t>(output));
+    EXPECT_EQ(fs::exists(at("run") / "checkpoint.h5"), false);  // it is not there before it is written
+  };
+  EXPECT_EQ(run(simulation, options), RunStatus::completed);
+  EXPECT_EQ(calls, "dv 1d 2dv 3d 4dvc");
+}
+
+/// What a callback throws ends the run like an error of its own, with a summary that names the last checkpoint.
+TEST_F(RunTest, EndsWithWhatACallbackThrows) {
+  Simulation simulation(small_scene({"time.end=0.1", "output.checkpoint_every=1/96"}));
+  RunOptions options;
+  options.directory = at("run");
+  options.quiet = true;
+  options.after_step = [](const Simulation& now) {
+    if (now.steps() == 3) throw SimulationStopped("far enough", "the host program");
+  };
+  try {
+    run(simulation, options);
+    FAIL() << "should have stopped";
+  } catch (const SimulationStopped& reason) {
+    EXPECT_NE(std::string(reason.what()).find("far enough"), std::string::npos) << reason.what();
+  }
+  EXPECT_NE(text_of(at("run") / "summary.json").find("\"status\": \"stopped\""), std::string::npos);
+  options.directory = at("other");
+  options.after_step = {};
+  options.before_output = [](const Simulation&, RunOutput) { throw std::out_of_range("of the host"); };
+  Simulation another(small_scene({"time.end=0.1"}));
+  EXPECT_THROW(run(another, options), std::out_of_range);
 }
 
 TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "run/scene_simulation.h"
 
 namespace vesiflow::run {
+
+/// What a run writes at the intervals of its scene: a row of diagnostics.csv, snapshots of the membranes and of the fluid, the
+/// checkpoint.
+enum class RunOutput { diagnostics, vesicle_snapshot, fluid_snapshot, checkpoint };
 
 /// Where and how a simulation is run to its end.
 struct RunOptions {
@@ -21,6 +26,12 @@ struct RunOptions {
   /// The program and the options to keep, as words. A run that ends early says this command with what continues it:
   /// --restart CHECKPOINT --out DIRECTORY. Where it is empty, only the checkpoint is named.
   std::vector<std::string> command = {};
+  /// Called after each step with the state that it has led to, before anything of that state is written. It is not called before the
+  /// first step, nor for a step that could not be taken.
+  std::function<void(const SceneSimulation&)> after_step = {};
+  /// Called before each output that is due, those at the start and at the end included, right before it is measured and written.
+  /// What either of the two throws ends the run as if the run itself had thrown it. Both are called in the thread of run().
+  std::function<void(const SceneSimulation&, RunOutput)> before_output = {};
 };
 
 /// How a run has ended: at time.end; by Ctrl-C (SIGINT); by SIGTERM; by SIGHUP; by SIGUSR1; by SIGUSR2; at limits.wall_time.

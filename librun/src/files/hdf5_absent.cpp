@@ -26,13 +26,13 @@ void Hdf5File::fail(const std::string& what) const {
 void Hdf5File::close() {
   fail("no HDF5");
 }
-void Hdf5File::write(const std::string&, const double*, const coupling::Shape&) {
+void Hdf5File::write(const std::string&, const double*, const Shape&) {
   fail("no HDF5");
 }
-void Hdf5File::write(const std::string&, const float*, const coupling::Shape&) {
+void Hdf5File::write(const std::string&, const float*, const Shape&) {
   fail("no HDF5");
 }
-void Hdf5File::write(const std::string&, const std::int32_t*, const coupling::Shape&) {
+void Hdf5File::write(const std::string&, const std::int32_t*, const Shape&) {
   fail("no HDF5");
 }
 void Hdf5File::attribute(const std::string&, const std::string&, double) {

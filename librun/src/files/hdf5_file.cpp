@@ -177,7 +177,7 @@ void Hdf5File::fail(const std::string& what) const {
   throw FileError(fmt::format("{}: {}{}{}", path_.string(), what, cause.empty() ? "" : ": ", cause));
 }
 
-void Hdf5File::write_values(const std::string& name, std::int64_t type, const void* values, const coupling::Shape& shape) {
+void Hdf5File::write_values(const std::string& name, std::int64_t type, const void* values, const Shape& shape) {
   if (!make_parents(file_, name)) fail(name + " cannot be written");
   const Handle space(simple_space(shape), H5Sclose);
   const Handle creation = checksummed(shape, type);
@@ -189,17 +189,17 @@ void Hdf5File::write_values(const std::string& name, std::int64_t type, const vo
     fail(name + " cannot be written");
 }
 
-void Hdf5File::write(const std::string& name, const double* values, const coupling::Shape& shape) {
+void Hdf5File::write(const std::string& name, const double* values, const Shape& shape) {
   write_values(name, H5T_NATIVE_DOUBLE, values, shape);
 }
-void Hdf5File::write(const std::string& name, const float* values, const coupling::Shape& shape) {
+void Hdf5File::write(const std::string& name, const float* values, const Shape& shape) {
   write_values(name, H5T_NATIVE_FLOAT, values, shape);
 }
-void Hdf5File::write(const std::string& name, const std::int32_t* values, const coupling::Shape& shape) {
+void Hdf5File::write(const std::string& name, const std::int32_t* values, const Shape& shape) {
   write_values(name, H5T_NATIVE_INT32, values, shape);
 }
 
-void Hdf5File::write_attribute(const std::string& group, const std::string& name, std::int64_t type, const coupling::Shape& shape,
+void Hdf5File::write_attribute(const std::string& group, const std::string& name, std::int64_t type, const Shape& shape,
                                const void* value) {
   if (!make_parents(file_, group + "/")) fail(name + " cannot be written");
   const Handle target(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);

@@ -28,16 +28,16 @@ class QuietHdf5 {
 class Hdf5File {
  public:
   enum class Mode { create, read };
-  using coupling::Shape = std::vector<std::uint64_t>;
+  using Shape = std::vector<std::uint64_t>;
 
   Hdf5File(const std::filesystem::path& path, Mode mode);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
 
-  void write(const std::string& name, const double* values, const coupling::Shape& shape);
-  void write(const std::string& name, const float* values, const coupling::Shape& shape);
-  void write(const std::string& name, const std::int32_t* values, const coupling::Shape& shape);
+  void write(const std::string& name, const double* values, const Shape& shape);
+  void write(const std::string& name, const float* values, const Shape& shape);
+  void write(const std::string& name, const std::int32_t* values, const Shape& shape);
   void attribute(const std::string& group, const std::string& name, double value);
   void attribute(const std::string& group, const std::string& name, std::int64_t value);
   void attribute(const std::string& group, const std::string& name, const std::vector<double>& values);
@@ -61,8 +61,8 @@ class Hdf5File {
 
  private:
   [[noreturn]] void fail(const std::string& what) const;
-  void write_values(const std::string& name, std::int64_t type, const void* values, const coupling::Shape& shape);
-  void write_attribute(const std::string& group, const std::string& name, std::int64_t type, const coupling::Shape& shape,
+  void write_values(const std::string& name, std::int64_t type, const void* values, const Shape& shape);
+  void write_attribute(const std::string& group, const std::string& name, std::int64_t type, const Shape& shape,
                        const void* value);
   void read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value) const;
 

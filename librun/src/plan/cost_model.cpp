@@ -149,18 +149,13 @@ class CostModel {
   }
 
   double of_coupled(double transforms) const {
-    double least = 1.0, greatest = 1.0;
-    for (std::size_t i = 0; i < scene_.vesicles.size(); ++i) {
-      least = std::min(least, scene_.viscosity_ratio(i));
-      greatest = std::max(greatest, scene_.viscosity_ratio(i));
-    }
-    return coupled_over_fft * std::sqrt(greatest / least) * ns::momentum * transforms;
+    return coupled_over_fft * std::sqrt(scene_.viscosity_range().contrast()) * ns::momentum * transforms;
   }
 
   // Seconds of solves of that many components, and whether they are rough.
-  std::pair<double, bool> solve(SolverChoice choice, double by_fft, double components) const {
-    if (choice == SolverChoice::pcg) return {pcg_over_fft * by_fft, true};
-    if (choice == SolverChoice::cholmod) return {nanosecond * cholmod_unknown * components * size_.cells, true};
+  std::pair<double, bool> solve(coupling::FluidSolver choice, double by_fft, double components) const {
+    if (choice == coupling::FluidSolver::pcg) return {pcg_over_fft * by_fft, true};
+    if (choice == coupling::FluidSolver::cholmod) return {nanosecond * cholmod_unknown * components * size_.cells, true};
     return {by_fft, false};
   }
 

@@ -79,12 +79,11 @@ std::string mirrored_axes(const Scene& scene) {
 
 // Of the vesicle that has fewest. The delta function thickens the membrane by about 0.4 h (docs/coupling.md).
 void describe_cells_across(Plan& plan, const Scene& scene) {
-  constexpr double fewest = 8.0;
   double smallest = std::numeric_limits<double>::infinity();
   for (const coupling::VesicleParameters& vesicle : scene.vesicles) smallest = std::min(smallest, vesicle.radius);
   const double across = 2.0 * smallest / scene.spacing();
   plan.line("cells across a vesicle", "{:.1f}{}", across,
-            across < fewest ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %" : "");
+            across < coupling::validity::fewest_cells_across ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %" : "");
 }
 
 // Of the start, between membranes and to the walls.
@@ -108,7 +107,9 @@ void describe_distances(Plan& plan, const Scene& scene, const std::vector<vesicl
 
 // Of the start, of the vesicle that has least. Limits: docs/stability.md, reduced volume and capillary number.
 void describe_deflation(Plan& plan, const Scene& scene, const std::vector<vesicle::VectorField>& markers) {
-  constexpr double least_stable = 0.64, least_stable_in_fast_flow = 0.9, fast_flow = 10.0;
+  constexpr double least_stable = coupling::validity::least_reduced_volume,
+                   least_stable_in_fast_flow = coupling::validity::least_reduced_volume_in_fast_flow,
+                   fast_flow = coupling::validity::fast_capillary_number;
   constexpr double quadrature = 2e-3;  // its error on few latitudes
   double least = 1.0, capillary_number = 0.0;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
@@ -206,9 +207,8 @@ std::string describe_bending(const Scene& scene) {
 }
 
 // The solver of a problem, and why if it was left to choose.
-std::string describe_solver(const fluid::EllipticProblem& problem, SolverChoice choice) {
-  constexpr std::array names{"auto", "fft", "cholmod", "pcg"};
-  if (choice != coupling::FluidSolver::automatic) return names[static_cast<std::size_t>(choice)];
+std::string describe_solver(const fluid::EllipticProblem& problem, coupling::FluidSolver choice) {
+  if (choice != coupling::FluidSolver::automatic) return std::string(name(choice));
   const fluid::SolverChoice chosen = fluid::choose_solver(problem, {});
   return fmt::format("{} ({})", fluid::name(chosen.options), chosen.reason);
 }
@@ -253,17 +253,17 @@ std::string describe_markers(const Scene& scene) {
   if (time.markers == coupling::MarkerMotion::implicit)
     return fmt::format("implicit, by fixed-point iteration to {:g} of a radius, at most {} times",
                        time.implicit_tolerance, time.implicit_iterations);
-  if (time.markers != coupling::MarkerMotion::arkode) return time.markers;
+  if (time.markers != coupling::MarkerMotion::arkode) return std::string(name(time.markers));
   return fmt::format("arkode, tolerance {:g}, fluid velocity {} within a step", time.absolute_tolerance,
                      time.fluid_velocity == coupling::FluidVelocity::frozen ? "frozen" : "interpolated");
 }
 
 std::string describe_kernel(coupling::DeltaKernel kernel) {
-  const int normal = coupling::support_width(kernel, Direction::normal), across = coupling::support_width(kernel, Direction::tangential);
+  const int normal = coupling::support_width(kernel, coupling::Direction::normal), across = coupling::support_width(kernel, coupling::Direction::tangential);
   const std::string points = normal == across ? fmt::format("{}", normal)
                                               : fmt::format("{} along a component and {} across it", normal, across);
   return fmt::format("delta function \"{}\", points {}{}", name(kernel), points,
-                     coupling::interpolation(kernel) == Interpolation::divergence_preserving ? ", preserving divergence" : "");
+                     coupling::interpolation(kernel) == coupling::Interpolation::divergence_preserving ? ", preserving divergence" : "");
 }
 
 void describe_step(Plan& plan, const Scene& scene) {
@@ -315,7 +315,7 @@ void describe_step(Plan& plan, const Scene& scene) {
                             ? "velocity filtered, then split"
                             : "normal and tangential parts filtered apart",
                         normal, scene.mesh.tangential_degrees),
-            fmt::format("time.markers = \"{}\": the mesh follows the shape", scene.time.markers));
+            fmt::format("time.markers = \"{}\": the mesh follows the shape", name(scene.time.markers)));
   plan.part(scene.mesh.redistribute == coupling::Redistribute::when_needed, "redistribution",
             fmt::format("along the membrane, when its aspect ratio is above {:g} or the spectrum's tail above {:g}",
                         scene.mesh.max_aspect_ratio, scene.mesh.max_spectrum_tail),
@@ -332,12 +332,12 @@ void describe_step(Plan& plan, const Scene& scene) {
                      : "implicit in tension and bending, momentum of its corrections owed to the fluid",
             follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
   plan.part(follows && !scene.time.adaptive, "start", "in parts of steps where shapes start far from rest",
-            follows ? "time.adaptive = true" : fmt::format("time.markers = \"{}\"", scene.time.markers));
+            follows ? "time.adaptive = true" : fmt::format("time.markers = \"{}\"", name(scene.time.markers)));
   plan.part(tension && !follows, "target areas",
             scene.mesh.slip == vesicle::SlipReference::dealiased
                 ? "Eqs. (32), (33), slip against the dealiased velocity"
                 : "Eqs. (32), (33), slip against the interpolated velocity (paper)",
-            follows ? fmt::format("time.markers = \"{}\"", scene.time.markers) : "membrane.sigma0 = 0");
+            follows ? fmt::format("time.markers = \"{}\"", name(scene.time.markers)) : "membrane.sigma0 = 0");
 }
 
 // Interval, number and size of snapshots of so many bytes, a file each.

@@ -16,22 +16,15 @@
 
 namespace vesiflow::run {
 
-double coupling::stable_bending_step(const Scene& scene) {
-  double stiffest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) stiffest = std::min(stiffest, coupling::own_capillary_number(scene, i));
-  return 0.5 * stiffest;
-}
+namespace validity = coupling::validity;
 
-double coupling::quiet_tension_number(const Scene& scene) {
-  constexpr double least_reynolds_number = 0.5;
-  const double re = coupling::vesicle_reynolds_number(scene);
-  if (scene.time.markers != coupling::MarkerMotion::shape_following || re < least_reynolds_number)
-    return std::numeric_limits<double>::infinity();
-  return re <= 1.0 ? 112.0 : 80.0;
+double stable_convection_step(const Scene& scene) {
+  if (scene.flow.type == FlowType::custom) return std::numeric_limits<double>::infinity();
+  return coupling::stable_convection_step(scene, flow_of(scene));
 }
 
 std::string describe_marker_spacing(const Scene& scene) {
-  constexpr double widest = 1.25, closest = 0.3;
+  using validity::closest_markers, validity::widest_markers;
   const double h = scene.spacing();
   double most = 0.0, least = std::numeric_limits<double>::infinity(), radius = 0.0;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
@@ -43,12 +36,12 @@ std::string describe_marker_spacing(const Scene& scene) {
   const std::string text = most > (1.0 + round_off) * least ? fmt::format("about {:.2f} to {:.2f} h", least, most)
                                                             : fmt::format("about {:.2f} h", most);
   std::string warning;
-  if (most > widest)
+  if (most > widest_markers)
     warning = fmt::format(
         "  <- WARNING: markers more than h apart let the fluid through between them, and runs stop: take "
         "mesh.latitudes >= {:.0f}",
         std::ceil(std::numbers::pi * radius / h / 8.0) * 8.0);
-  else if (least < closest)
+  else if (least < closest_markers)
     warning =
         "  <- WARNING: markers so close bring nothing that the fluid's grid resolves: fewer mesh.latitudes or more "
         "domain.cells";
@@ -56,7 +49,7 @@ std::string describe_marker_spacing(const Scene& scene) {
 }
 
 std::string step_warning(const Scene& scene) {
-  constexpr double longest = 1.0 / 12.0;
+  constexpr double longest = validity::recommended_turn_per_step;
   if (!scene.follows_shape() || scene.time.adaptive || scene.flow.type == FlowType::custom) return "";
   const coupling::Flow flow = flow_of(scene);
   const double rate = std::max(flow.greatest_gradient, flow.angular_frequency);
@@ -82,9 +75,9 @@ std::string bending_warning(const Scene& scene) {
 }
 
 std::string inertia_warning(const Scene& scene) {
-  constexpr double largest_reynolds_number = 10.0;
-  if (coupling::vesicle_reynolds_number(scene) <= largest_reynolds_number) return "";
-  return "  <- WARNING: fluid.reynolds_number above 10 has been compared with nothing";
+  if (coupling::vesicle_reynolds_number(scene) <= validity::largest_reynolds_number) return "";
+  return fmt::format("  <- WARNING: fluid.reynolds_number above {:g} has been compared with nothing",
+                     validity::largest_reynolds_number);
 }
 
 }  // namespace vesiflow::run

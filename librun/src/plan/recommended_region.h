@@ -6,16 +6,11 @@
 
 namespace vesiflow::run {
 
-/// What docs/stability.md, Recommended region, says of a scene: limits, and for the plan a warning where the scene is beyond one ("  <- WARNING:
-/// ... what to do"), else nothing.
+/// What coupling/validity.h says of a scene, for the plan: a warning where the scene is beyond a limit ("  <- WARNING: ... what to do"), else
+/// nothing.
 
-/// The longest step that follows bending: a shape far from rest relaxes at a rate of about 1/Ca (docs/stability.md, reduced volume and capillary
-/// number). Of the stiffest vesicle; Ca r^3 is its own number where its radius is not 1.
-double coupling::stable_bending_step(const Scene& scene);
-
-/// The largest g = dt sigma0/(4 h) at which shape following is quiet where inertia counts (docs/time_integration.md, shape_following); infinite
-/// elsewhere.
-double coupling::quiet_tension_number(const Scene& scene);
+/// That of coupling/validity.h with the flow that the scene names; infinite for a program's.
+double stable_convection_step(const Scene& scene);
 
 /// Spacing of the markers in those of the grid, of the vesicles that have most and least of it, with its warning.
 std::string describe_marker_spacing(const Scene& scene);

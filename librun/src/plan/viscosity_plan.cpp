@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "coupling/simulation.h"
+#include "coupling/validity.h"
 #include "fluid/elliptic_solver.h"
 
 namespace vesiflow::run {
@@ -51,9 +51,8 @@ double fluid_bytes(const Scene& scene, const fluid::Grid& grid, bool is_variable
 }
 
 std::string describe_solve(const Scene& scene, const fluid::Grid& grid, double greatest, bool is_coupled) {
-  constexpr std::array names{"auto", "fft", "cholmod", "pcg"};
-  const SolverChoice choice = scene.fluid.velocity_solver;
-  if (choice != coupling::FluidSolver::automatic) return names[static_cast<std::size_t>(choice)];
+  const coupling::FluidSolver choice = scene.fluid.velocity_solver;
+  if (choice != coupling::FluidSolver::automatic) return std::string(name(choice));
   if (is_coupled) return "cholmod or pcg with fft, whichever is estimated to be faster in the first step";
   const auto problem = fluid::EllipticProblem::velocity(grid, fluid::EllipticForm::laplacian, 1.0, greatest);
   const fluid::SolverChoice chosen = fluid::choose_solver(problem, {});
@@ -69,8 +68,7 @@ std::string describe_treatment(const Scene& scene, double least, double greatest
           "explicit (paper): {:g} Lap u* + div((mu - {:g})(grad u + grad u^T)), an error of ratio x step", greatest,
           greatest);
     case ViscousTreatment::implicit: {
-      constexpr double largest_contrast = 5.0;  // docs/stability.md: quiet there, while steps of 1/24 blow up at 20
-      const bool is_risky = scene.time.markers == coupling::MarkerMotion::shape_following && greatest / least > largest_contrast;
+      const bool is_risky = scene.time.markers == coupling::MarkerMotion::shape_following && greatest / least > coupling::validity::quiet_implicit_contrast;
       return fmt::format("implicit: all three components in one solve{}",
                          is_risky
                              ? "; <- WARNING: unstable with time.markers = \"shape_following\" at this contrast but "
@@ -81,7 +79,7 @@ std::string describe_treatment(const Scene& scene, double least, double greatest
     case ViscousTreatment::extrapolated:
       break;
   }
-  const double step = 0.1 / std::sqrt(greatest / least);
+  const double step = coupling::validity::extrapolated_step / std::sqrt(greatest / least);
   return fmt::format("extrapolated: {:g} Lap u* + div((mu - {:g})(grad u + grad u^T)), the second by extrapolation; {}",
                      greatest, greatest,
                      scene.time.step > step
@@ -95,11 +93,7 @@ std::string describe_treatment(const Scene& scene, double least, double greatest
 
 ViscosityPlan plan_viscosity(const Scene& scene) {
   const fluid::Grid grid = coupling::grid_of(scene);
-  double least = 1.0, greatest = 1.0;
-  for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
-    least = std::min(least, scene.viscosity_ratio(i));
-    greatest = std::max(greatest, scene.viscosity_ratio(i));
-  }
+  const auto [least, greatest] = scene.viscosity_range();
   ViscosityPlan plan;
   plan.is_variable = scene.has_viscosity_contrast();
   const bool is_coupled = plan.is_variable && scene.fluid.inertia != fluid::Inertia::none &&

@@ -87,6 +87,7 @@ class Run {
   void log_redistributions();
   void log_start();
   void record(bool last);
+  void announce(RunOutput output) const;
   void take_step();
   void go_back(const coupling::SimulationStopped& reason);
   std::optional<RunStatus> wants_to_end() const;
@@ -232,6 +233,10 @@ void Run::checkpoint() {
   write_summary(directory_, options_, simulation_, record_);
 }
 
+void Run::announce(RunOutput output) const {
+  if (options_.before_output) options_.before_output(simulation_, output);
+}
+
 // Writes what is due at the present time; at the end everything that is written at all.
 void Run::record(bool last) {
   const Scene::Output& output = simulation_.scene().output;
@@ -245,6 +250,7 @@ void Run::record(bool last) {
       wanted(output.checkpoint_every))
     lock_->require_held();
   if (wanted(output.diagnostics_every) && table_->last_step() < step) {
+    announce(RunOutput::diagnostics);
     const OutputTimer timer(record_.output_table, simulation_);
     const std::vector<vesicle::Diagnostics> all = simulation_.measure();
     const std::vector<double> distances = simulation_.nearest_distances();
@@ -253,16 +259,19 @@ void Run::record(bool last) {
     warn_of_resolution();
   }
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) {
+    announce(RunOutput::vesicle_snapshot);
     const coupling::PhaseTimer timer(record_.output_vesicle);
     vesicle_snapshots_->write(step, time);
   }
   if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) {
+    announce(RunOutput::fluid_snapshot);
     const coupling::PhaseTimer timer(record_.output_fluid);
     fluid_snapshots_->write(step, time);
   }
   // At the start there is nothing to lose yet, but a state to go back to.
   const bool at_start = step == 0 && !last && simulation_.scene().ending.on_blowup == OnBlowUp::stop;
   if (wanted(output.checkpoint_every) && !at_start && checkpointed_step_ < step && !(spoilt() && !last)) {
+    announce(RunOutput::checkpoint);
     const OutputTimer timer(record_.output_checkpoint, simulation_);
     checkpoint();
   }
@@ -337,11 +346,12 @@ void Run::take_step() {
   log_start();
   log_redistributions();
   progress_->update(simulation_);
+  if (options_.after_step) options_.after_step(simulation_);
   record(simulation_.finished());
 }
 
 bool Run::may_go_back() const {
-  const Scene::Limits& limits = simulation_.scene().limits;
+  const Scene::Ending& limits = simulation_.scene().ending;
   std::error_code error;
   return limits.on_blowup == OnBlowUp::reduce_step && static_cast<int>(record_.retries.size()) < limits.retries &&
          std::filesystem::exists(checkpoint_file(), error);

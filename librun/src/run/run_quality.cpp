@@ -5,22 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/flow.h"
+#include "plan/recommended_region.h"
 #include "coupling/overlap.h"
 #include "coupling/validity.h"
 
 namespace vesiflow::run {
 namespace {
 
-constexpr long settling_steps = 10;  // of a start, in which velocities jump
+namespace validity = coupling::validity;
+using validity::settling_steps;
 
-// Relative error of inclination and frequency in tank-treading per spacing over radius, at ratio 1: 3.5 % at 0.1875, and 0.3 % with the
-// correction (validation/thickening.md).
-constexpr double error_per_spacing = 0.19, corrected_error_per_spacing = 0.016;
-
-// What the studies cover.
-constexpr double largest_reynolds_number = 10.0, largest_divergence = 1e-8;
-constexpr std::array<double, RunQuality::quantities> limits{1e-2, 1e-3, 5e-2, 0.1, 1e-4, 0.05, 0.05, 2.0};
+constexpr std::array<double, RunQuality::quantities> limits{
+    validity::warned_area_error,          validity::warned_volume_error,  validity::warned_local_area_error,
+    validity::warned_surface_divergence,  validity::warned_spectrum_tail, validity::warned_unresolved_bending,
+    validity::warned_velocity_noise,      validity::warned_courant_number};
 
 constexpr std::array<const char*, RunQuality::quantities> names{
     "the relative error of an area",
@@ -136,7 +134,7 @@ RunQuality::SceneNumbers RunQuality::scene_numbers() const {
   return {.tension_number = scene_.tension_number(),
           .stable_tension_number = scene_.stable_tension_number(),
           .convection_step_ratio = longest / stable_convection_step(scene_),
-          .grid_error = (scene_.coupling.thickness_correction ? corrected_error_per_spacing : error_per_spacing) *
+          .grid_error = (scene_.coupling.thickness_correction ? validity::corrected_error_per_spacing : validity::error_per_spacing) *
                         scene_.spacing() / smallest_radius};
 }
 
@@ -157,21 +155,21 @@ std::vector<std::string> RunQuality::warnings() const {
   };
   const Errors& e = errors_;
   const SceneNumbers numbers = scene_numbers();
-  warn_above(e.divergence, largest_divergence, "the divergence of the fluid's velocity",
+  warn_above(e.divergence, validity::warned_divergence, "the divergence of the fluid's velocity",
              "it should be round-off: please report it, with the scene");
   warn_above(numbers.tension_number, numbers.stable_tension_number, "g = time.step membrane.sigma0/(4 h)",
              "the explicit tension is beyond its stability: take a smaller time.step");
   warn_above(numbers.convection_step_ratio, 1.0, "time.step over the one at which the explicit convection is stable",
              "take a smaller time.step");
-  warn_above(coupling::vesicle_reynolds_number(scene_), largest_reynolds_number,
+  warn_above(coupling::vesicle_reynolds_number(scene_), validity::largest_reynolds_number,
              "fluid.reynolds_number times the square of the largest radius",
              "more than has been compared with anything");
   const auto warn_below = [&](double gap, const char* what) {
-    if (gap < coupling::validity::least_resolved_gap)
+    if (gap < validity::least_resolved_gap)
       all.push_back(
           fmt::format("a membrane came within {:.2g} spacings of {}, below {:g}: the fluid in between is not resolved, "
                       "take more domain.cells",
-                      gap, what, coupling::validity::least_resolved_gap));
+                      gap, what, validity::least_resolved_gap));
   };
   warn_below(e.membrane_gap, "another");
   warn_below(e.wall_gap, "a wall");

@@ -18,9 +18,9 @@ struct Settings {
 };
 
 constexpr double stiff = 9000.0;                         // strains below 1e-3 where stresses are of order one
-constexpr double largest_reynolds_number = 0.1;          // that of the correction of the thickness
-constexpr double smallest_capillary_number = 1.0;        // that was verified
-constexpr double smallest_reduced_volume = 0.8 - 1e-12;  // the same
+constexpr double largest_reynolds_number = coupling::validity::largest_reynolds_number_with_thickness_correction;
+constexpr double smallest_capillary_number = coupling::validity::preset_least_capillary_number;
+constexpr double smallest_reduced_volume = coupling::validity::preset_least_reduced_volume - 1e-12;
 
 Settings settings_of(Accuracy accuracy) {
   return accuracy == Accuracy::per_mille ? Settings{12.0, 5.0, 192.0} : Settings{8.0, 5.0, 96.0};

@@ -9,7 +9,7 @@
 
 #include "scene/accuracy.h"
 #include "run/errors.h"
-#include "coupling/initial_shape.h"
+#include "scene/scene_surfaces.h"
 #include "scene/key_suggestion.h"
 #include "scene/scene_keys.h"
 #include "scene/scene_reader.h"
@@ -51,7 +51,7 @@ void read_vesicles(SceneDocument& document, Scene& scene) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string prefix = fmt::format("vesicles.{}.", i);
     SceneReader reader(document, prefix);
-    visit_keys(scene.vesicles.emplace_back(), reader);
+    visit_keys(scene.vesicles.emplace_back(), scene.surface_files.emplace_back(), reader);
     refuse_unknown_keys(document, *list.get(i)->as_table(), prefix, "vesicles.");
   }
 }
@@ -91,13 +91,13 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
   }
   adapt_tangential_degrees(document, scene);
 
-  if (scene.membrane.g && document.find("membrane.sigma0") == nullptr)
-    scene.membrane.sigma0 = *scene.membrane.g * 4.0 * scene.finest_spacing() / scene.time.step;
-  for (coupling::VesicleParameters& vesicle : scene.vesicles)
-    if (vesicle.file) vesicle.file = absolute_file(*vesicle.file, name);
+  if (scene.g && document.find("membrane.sigma0") == nullptr)
+    scene.membrane.sigma0 = *scene.g * 4.0 * scene.finest_spacing() / scene.time.step;
+  for (SurfaceFile& surface : scene.surface_files)
+    if (surface.file) surface.file = absolute_file(*surface.file, name);
   load_surfaces(scene);
   check_scene(scene, name);
-  scene.membrane.g.reset();  // said; sigma0 is what counts from here on
+  scene.g.reset();  // said; sigma0 is what counts from here on
   return scene;
 }
 

@@ -37,7 +37,7 @@ double to_number(const toml::node& node) {
 }
 
 // Of a value that is infinite or no number, ranges without an end do not say what is wrong.
-std::string must_be(double value, const Range& range) {
+std::string must_be(double value, const coupling::Range& range) {
   const bool has_end = std::isfinite(range.low) && std::isfinite(range.high);
   const bool says_so = has_end || !(std::isfinite(range.low) || std::isfinite(range.high));
   return fmt::format("must be {}{}", std::isfinite(value) || says_so ? "" : "finite and ", range.describe());
@@ -74,28 +74,28 @@ void SceneReader::optional_text(std::string_view key, std::optional<std::string>
   if (find(key).node != nullptr) text(key, value.emplace());
 }
 
-void SceneReader::number(std::string_view key, double& value, const Range& range) {
+void SceneReader::number(std::string_view key, double& value, const coupling::Range& range) {
   if (const Given given = find(key); given.node != nullptr) set(checked(given, *given.node, range), value);
 }
 
-void SceneReader::optional_number(std::string_view key, std::optional<double>& value, const Range& range) {
+void SceneReader::optional_number(std::string_view key, std::optional<double>& value, const coupling::Range& range) {
   if (const Given given = find(key); given.node != nullptr) set(checked(given, *given.node, range), value);
 }
 
-void SceneReader::integer(std::string_view key, int& value, const Range& range) {
+void SceneReader::integer(std::string_view key, int& value, const coupling::Range& range) {
   if (const Given given = find(key); given.node != nullptr) set(checked_integer(given, *given.node, range), value);
 }
 
-void SceneReader::optional_integer(std::string_view key, std::optional<int>& value, const Range& range) {
+void SceneReader::optional_integer(std::string_view key, std::optional<int>& value, const coupling::Range& range) {
   if (const Given given = find(key); given.node != nullptr) set(checked_integer(given, *given.node, range), value);
 }
 
-void SceneReader::vector(std::string_view key, std::array<double, 3>& value, const Range& range) {
+void SceneReader::vector(std::string_view key, std::array<double, 3>& value, const coupling::Range& range) {
   if (const Given given = find(key); given.node != nullptr) set(checked_vector(given, range), value);
 }
 
 void SceneReader::optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
-                                  const Range& range) {
+                                  const coupling::Range& range) {
   if (const Given given = find(key); given.node != nullptr) set(checked_vector(given, range), value);
 }
 
@@ -112,7 +112,7 @@ void SceneReader::booleans(std::string_view key, std::array<bool, 3>& value) {
   for (std::size_t i = 0; i < 3; ++i) set(checked_boolean(given, *given.node->as_array()->get(i), allowed), value[i]);
 }
 
-void SceneReader::cells(std::string_view key, std::array<int, 3>& value, const Range& range) {
+void SceneReader::cells(std::string_view key, std::array<int, 3>& value, const coupling::Range& range) {
   const Given given = find(key);
   if (given.node == nullptr) return;
   if (is_three(*given.node)) {
@@ -146,7 +146,7 @@ void SceneReader::choice(std::string_view key, int& value, std::span<const std::
   value = static_cast<int>(found - names.begin());
 }
 
-std::optional<double> SceneReader::checked(const Given& given, const toml::node& part, const Range& range) {
+std::optional<double> SceneReader::checked(const Given& given, const toml::node& part, const coupling::Range& range) {
   const double value = to_number(part);
   const bool numeric = part.is_number() || (part.is_string() && !std::isnan(value));
   if (numeric && range.contains(value)) return value;
@@ -160,7 +160,7 @@ std::optional<bool> SceneReader::checked_boolean(const Given& given, const toml:
   return std::nullopt;
 }
 
-std::optional<int> SceneReader::checked_integer(const Given& given, const toml::node& part, const Range& range) {
+std::optional<int> SceneReader::checked_integer(const Given& given, const toml::node& part, const coupling::Range& range) {
   if (!part.is_integer()) {
     refuse(given, fmt::format("must be a whole number {}", range.describe()));
     return std::nullopt;
@@ -172,7 +172,7 @@ std::optional<int> SceneReader::checked_integer(const Given& given, const toml::
   return std::nullopt;
 }
 
-std::optional<std::array<double, 3>> SceneReader::checked_vector(const Given& given, const Range& range) {
+std::optional<std::array<double, 3>> SceneReader::checked_vector(const Given& given, const coupling::Range& range) {
   if (!is_three(*given.node)) {
     refuse(given, "must be three numbers, such as [0.0, 0.0, 0.0]");
     return std::nullopt;
@@ -193,10 +193,10 @@ std::optional<vesicle::Harmonic> SceneReader::checked_harmonic(const Given& give
     refuse(given, harmonics_form);
     return std::nullopt;
   }
-  const auto degree = checked_integer(given, (*entries)[0], Range::between(0, largest_degree));
+  const auto degree = checked_integer(given, (*entries)[0], coupling::Range::between(0, largest_degree));
   if (!degree) return std::nullopt;
-  const auto order = checked_integer(given, (*entries)[1], Range::between(-*degree, *degree));
-  const auto amplitude = checked(given, (*entries)[2], Range::any());
+  const auto order = checked_integer(given, (*entries)[1], coupling::Range::between(-*degree, *degree));
+  const auto amplitude = checked(given, (*entries)[2], coupling::Range::any());
   if (!order || !amplitude) return std::nullopt;
   return vesicle::Harmonic{*degree, *order, *amplitude};
 }

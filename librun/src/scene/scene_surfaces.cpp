@@ -43,16 +43,17 @@ void load_surfaces(Scene& scene, const std::string& name) {
   FittedMeshes meshes;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     coupling::VesicleParameters& vesicle = scene.vesicles[i];
-    if (!vesicle.file) continue;
+    const SurfaceFile& file = scene.surface_file(i);
+    if (!file.file) continue;
     const std::string key = fmt::format("{}: vesicles.{}.file", name, i);
     try {
-      if (vesicle.shape == coupling::Shape::coefficients) vesicle.surface = vesicle::read_surface_coefficients(*vesicle.file);
+      if (vesicle.shape == coupling::Shape::coefficients) vesicle.surface = vesicle::read_surface_coefficients(*file.file);
       if (vesicle.shape == coupling::Shape::mesh)
-        vesicle.surface = meshes.fit(*vesicle.file, vesicle.fit_degrees, scene.latitudes(i), key);
+        vesicle.surface = meshes.fit(*file.file, file.fit_degrees, scene.latitudes(i), key);
     } catch (const std::invalid_argument& error) {
       throw SceneError(fmt::format("{}: vesicles.{}.fit_degrees: {}", name, i, error.what()));
     } catch (const std::domain_error& error) {
-      throw SceneError(fmt::format("{} = \"{}\": {}", key, *vesicle.file, error.what()));
+      throw SceneError(fmt::format("{} = \"{}\": {}", key, *file.file, error.what()));
     } catch (const std::runtime_error& error) {
       throw SceneError(fmt::format("{}: {}", key, error.what()));
     }

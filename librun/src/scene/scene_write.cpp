@@ -42,36 +42,39 @@ class Lister : public KeyVisitor {
   void optional_text(std::string_view key, std::optional<std::string>& value) override {
     show(key, value ? toml_string(*value) : "", "text");
   }
-  void number(std::string_view key, double& value, const Range& range) override {
+  void number(std::string_view key, double& value, const coupling::Range& range) override {
     show(key, toml_number(value), range.describe());
   }
-  void optional_number(std::string_view key, std::optional<double>& value, const Range& range) override {
+  void optional_number(std::string_view key, std::optional<double>& value, const coupling::Range& range) override {
     show(key, value ? toml_number(*value) : "", range.describe());
   }
-  void integer(std::string_view key, int& value, const Range& range) override {
+  void integer(std::string_view key, int& value, const coupling::Range& range) override {
     show(key, fmt::format("{}", value), range.describe());
   }
-  void optional_integer(std::string_view key, std::optional<int>& value, const Range& range) override {
+  void optional_integer(std::string_view key, std::optional<int>& value, const coupling::Range& range) override {
     show(key, value ? fmt::format("{}", *value) : "", range.describe());
   }
-  void vector(std::string_view key, std::array<double, 3>& value, const Range& range) override {
+  void vector(std::string_view key, std::array<double, 3>& value, const coupling::Range& range) override {
     show(key, array_of(value), range.describe());
   }
-  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const Range& range) override {
+  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const coupling::Range& range) override {
     show(key, value ? array_of(*value) : "", range.describe());
   }
   void boolean(std::string_view key, bool& value) override { show(key, fmt::format("{}", value), "true, false"); }
   void booleans(std::string_view key, std::array<bool, 3>& value) override {
     show(key, fmt::format("[{}, {}, {}]", value[0], value[1], value[2]), "three of true, false");
   }
-  void cells(std::string_view key, std::array<int, 3>& value, const Range& range) override {
+  void cells(std::string_view key, std::array<int, 3>& value, const coupling::Range& range) override {
     show(key, fmt::format("[{}, {}, {}]", value[0], value[1], value[2]), range.describe());
   }
   void harmonics(std::string_view key, std::vector<vesicle::Harmonic>& value) override {
     show(key, array_of(value), "a list of [degree, order, amplitude]");
   }
   void choice(std::string_view key, int& value, std::span<const std::string_view> names) override {
-    show(key, toml_string(names[static_cast<std::size_t>(value)]), fmt::format("{}", fmt::join(names, ", ")));
+    const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
+    if (value < 0 || value >= static_cast<int>(names.size()))
+      throw SceneError(fmt::format("{} is value {} of an enumeration that has {}: {}", key, value, names.size(), allowed));
+    show(key, toml_string(names[static_cast<std::size_t>(value)]), allowed);
   }
 
  private:
@@ -128,24 +131,26 @@ class ValueCollector final : public Lister {
 
 std::map<std::string, std::string> scene_values(const Scene& scene) {
   Scene copy = scene;
+  copy.surface_files.resize(copy.vesicles.size());
   std::map<std::string, std::string> values;
   ValueCollector collector("", values);
   visit_keys(copy, collector);
   for (std::size_t i = 0; i < copy.vesicles.size(); ++i) {
     ValueCollector of_vesicle(fmt::format("vesicles.{}.", i), values);
-    visit_keys(copy.vesicles[i], of_vesicle);
+    visit_keys(copy.vesicles[i], copy.surface_files[i], of_vesicle);
   }
   return values;
 }
 
 std::string to_toml(const Scene& scene) {
   Scene copy = scene;
+  copy.surface_files.resize(copy.vesicles.size());
   TomlWriter writer;
   visit_keys(copy, writer);
   std::string text = writer.result;
-  for (coupling::VesicleParameters& vesicle : copy.vesicles) {
+  for (std::size_t i = 0; i < copy.vesicles.size(); ++i) {
     TomlWriter of_vesicle;
-    visit_keys(vesicle, of_vesicle);
+    visit_keys(copy.vesicles[i], copy.surface_files[i], of_vesicle);
     text += "\n[[vesicles]]\n" + of_vesicle.result;
   }
   return text;
@@ -154,10 +159,11 @@ std::string to_toml(const Scene& scene) {
 std::vector<SceneKey> scene_keys() {
   Scene scene;
   coupling::VesicleParameters vesicle;
+  SurfaceFile file;
   std::vector<SceneKey> keys;
   KeyLister scene_lister("", keys), vesicle_lister("vesicles.", keys);
   visit_keys(scene, scene_lister);
-  visit_keys(vesicle, vesicle_lister);
+  visit_keys(vesicle, file, vesicle_lister);
   return keys;
 }
 
