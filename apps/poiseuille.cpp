@@ -1,10 +1,10 @@
 // Vesicles in pressure-driven flow, in a rectangular duct or between two plates: bullets, parachutes, croissants, slippers.
-#include "coupling/run.h"
+#include "run/run.h"
 #include "scene_app.h"
 
 namespace {
 
-using vesiflow::coupling::FlowType;
+using vesiflow::run::FlowType;
 
 int poiseuille(int argc, char** argv) {
   return run_scene_app({.name = "poiseuille",
@@ -16,5 +16,5 @@ int poiseuille(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return vesiflow::coupling::exit_code_of(poiseuille, argc, argv);
+  return vesiflow::run::exit_code_of(poiseuille, argc, argv);
 }

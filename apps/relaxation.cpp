@@ -1,5 +1,5 @@
 // Vesicles that relax in fluid at rest.
-#include "coupling/run.h"
+#include "run/run.h"
 #include "scene_app.h"
 
 namespace {
@@ -7,12 +7,12 @@ namespace {
 int relaxation(int argc, char** argv) {
   return run_scene_app({.name = "relaxation",
                         .description = "Computes vesicles relaxing in fluid at rest from a scene file.",
-                        .flows = {{vesiflow::coupling::FlowType::rest, "rest"}}},
+                        .flows = {{vesiflow::run::FlowType::rest, "rest"}}},
                        argc, argv);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return vesiflow::coupling::exit_code_of(relaxation, argc, argv);
+  return vesiflow::run::exit_code_of(relaxation, argc, argv);
 }

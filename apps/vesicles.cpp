@@ -1,5 +1,5 @@
 // Vesicles in any flow that a scene can name.
-#include "coupling/run.h"
+#include "run/run.h"
 #include "scene_app.h"
 
 namespace {
@@ -12,5 +12,5 @@ int vesicles(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return vesiflow::coupling::exit_code_of(vesicles, argc, argv);
+  return vesiflow::run::exit_code_of(vesicles, argc, argv);
 }

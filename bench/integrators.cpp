@@ -13,19 +13,20 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "coupling/errors.h"
-#include "coupling/simulation.h"
+#include "run/errors.h"
+#include "run/scene_simulation.h"
 #include "support/timing.h"
 
 namespace {
 
-using namespace vesiflow::coupling;
+using namespace vesiflow::run;
+using vesiflow::coupling::Phases, vesiflow::coupling::SimulationStopped, vesiflow::coupling::visit_phases;
 using Json = nlohmann::ordered_json;
 
 // Of the first vesicle.
 class Course {
  public:
-  void record(Simulation& simulation) {
+  void record(SceneSimulation& simulation) {
     const auto d = simulation.measure().at(0);
     const auto add = [this](const char* name, double value) { series_[name].push_back(value); };
     add("t", simulation.time());
@@ -56,7 +57,7 @@ Json phases_of(const Phases& phases) {
 }
 
 Json run(const Scene& scene, double every, long most_steps) {
-  Simulation simulation(scene);
+  SceneSimulation simulation(scene);
   Course course;
   double cpu = 0.0, next = every;
   Json result{{"status", "completed"}};

@@ -8,7 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "shape_modes.h"
+#include "support/shape_modes.h"
 
 namespace {
 
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
     for (const int cells : sizes) {
       const double h = 2.0 * half / cells;
       const int latitudes = std::max(16, static_cast<int>(std::lround(refinement * M_PI / (0.55 * h) / 4.0)) * 4);
-      Scene scene = test::quarter_of(test::shape_modes_scene(half, cells, latitudes, ratio));
+      SimulationParameters scene = test::quarter_of(test::shape_modes(half, cells, latitudes, ratio));
       scene.coupling.kernel = delta_kernel(kernel);
       scene.coupling.thickness_correction = correction;
       if (correction) scene.time.step = std::min(scene.time.step, largest_tension_number * 4.0 * h / 100.0);

@@ -6,12 +6,14 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <omp.h>
 #include <CLI/CLI.hpp>
 
+#include "coupling/flow.h"
 #include "coupling/simulation.h"
 #include "support/allocation_counter.h"
 #include "support/four_transforms.h"
@@ -41,23 +43,29 @@ int latitudes_for(int cells) {
   return cells < 256 ? cells / 2 : 96;
 }
 
+MarkerMotion motion_of(const std::string& name) {
+  const auto found = std::ranges::find(marker_motion_names, name);
+  if (found == marker_motion_names.end()) throw std::invalid_argument("--markers " + name + ": no such motion");
+  return static_cast<MarkerMotion>(found - marker_motion_names.begin());
+}
+
 // Steps as one would take them with this integrator.
-Scene scene_of(int cells, double ratio, const std::string& markers) {
-  Scene scene;
-  scene.domain.cells.fill(cells);
-  scene.fluid.viscosity_ratio = ratio;
-  scene.mesh.latitudes = latitudes_for(cells);
-  scene.time.markers = markers;
-  if (markers == "shape_following") {
-    scene.time.step = ratio == 1.0 ? 1.0 / 24.0 : 1.0 / 48.0;
-    scene.membrane.sigma0 = ratio == 1.0 ? 6000.0 : 2000.0;
+SimulationParameters parameters_of(int cells, double ratio, MarkerMotion markers) {
+  SimulationParameters parameters;
+  parameters.domain.cells.fill(cells);
+  parameters.fluid.viscosity_ratio = ratio;
+  parameters.mesh.latitudes = latitudes_for(cells);
+  parameters.time.markers = markers;
+  if (markers == MarkerMotion::shape_following) {
+    parameters.time.step = ratio == 1.0 ? 1.0 / 24.0 : 1.0 / 48.0;
+    parameters.membrane.sigma0 = ratio == 1.0 ? 6000.0 : 2000.0;
   } else {
-    scene.time.step = 1.0 / (3.0 * cells);
-    scene.membrane.sigma0 = 600.0;
+    parameters.time.step = 1.0 / (3.0 * cells);
+    parameters.membrane.sigma0 = 600.0;
   }
-  scene.vesicles.resize(1);
-  scene.vesicles[0].reduced_volume = 0.9;
-  return scene;
+  parameters.vesicles.resize(1);
+  parameters.vesicles[0].reduced_volume = 0.9;
+  return parameters;
 }
 
 // Of times, disturbed by other programs. Not the least one: after a look at the meshes the next step finds its geometry done.
@@ -70,7 +78,8 @@ double lower_quartile(std::vector<double> values) {
 class Case {
  public:
   Case(int cells, double ratio, const std::string& markers)
-      : cells_(cells), ratio_(ratio), markers_(markers), simulation_(scene_of(cells, ratio, markers)) {
+      : cells_(cells), ratio_(ratio), markers_(markers), simulation_(parameters_of(cells, ratio, motion_of(markers)),
+                    shear_flow(1.0, parameters_of(cells, ratio, motion_of(markers)).domain)) {
     for (int k = 0; k < 4; ++k) simulation_.step();  // first step and histories
     const long before = vesiflow::test::allocation_count();
     for (int k = 0; k < 2; ++k) simulation_.step();
@@ -144,7 +153,7 @@ class Case {
 // (libgomp) at every parallel region.
 long measure(int cells, const std::vector<double>& ratios, const std::vector<std::string>& markers, int repetitions,
              bool json, bool& first) {
-  FourTransforms reference(grid_of(scene_of(cells, 1.0, "euler")), FFTW_MEASURE);
+  FourTransforms reference(grid_of(parameters_of(cells, 1.0, MarkerMotion::euler)), FFTW_MEASURE);
   omp_set_num_threads(2);
   std::vector<std::unique_ptr<Case>> cases;
   for (const double ratio : ratios)
