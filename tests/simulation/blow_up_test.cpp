@@ -20,6 +20,8 @@
 namespace vesiflow::coupling {
 namespace {
 
+using run::RunStatus, run::RunOptions, run::read_checkpoint_scene, run::restore_checkpoint, run::run;
+
 namespace fs = std::filesystem;
 using vesicle::VectorField;
 
@@ -221,7 +223,7 @@ TEST_F(BlowUpTest, NeedsCheckpointsAndEqualSteps) {
 
 TEST_F(BlowUpTest, ARunThatIsOutOfTimeLeavesACheckpoint) {
   EXPECT_EQ(run_scene(small_scene({"time.end=1000", "ending.wall_time=0.1"})), RunStatus::out_of_time);
-  EXPECT_EQ(exit_code::of(RunStatus::out_of_time), 6);
+  EXPECT_EQ(run::exit_code::of(RunStatus::out_of_time), 6);
   const auto numbers = summary();
   EXPECT_EQ(numbers["status"], "out of time");
   EXPECT_LT(numbers["steps"], 96000);  // none at all, where a sanitizer makes the start take that long

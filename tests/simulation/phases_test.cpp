@@ -22,6 +22,8 @@
 namespace vesiflow::coupling {
 namespace {
 
+using run::RunOptions;
+
 struct Switch {
   const char* name;
   Overrides off;
@@ -145,7 +147,7 @@ class Output : public testing::Test {
     RunOptions options;
     options.directory = folder_;
     options.quiet = true;
-    run(simulation, options);
+    run::run(simulation, options);
     std::ostringstream text;
     text << std::ifstream(folder_ / "summary.json").rdbuf();
     std::istringstream lines(text.str().substr(text.str().find("\"phase_entries\"")));

@@ -67,7 +67,7 @@ TEST(TimeIntegration, ArkodeTakesTheVesicleWhereEulerDoes) {
   if (!have_sundials()) GTEST_SKIP() << "built without SUNDIALS";
   SceneSimulation euler(small_scene()), arkode(small_scene(with("arkode"))),
       interpolated(small_scene(with("arkode", {"time.fluid_velocity=interpolated"})));
-  for (Simulation* s : {&euler, &arkode, &interpolated}) advance(*s, 48);
+  for (SceneSimulation* s : {&euler, &arkode, &interpolated}) advance(*s, 48);
   const double angle = euler.measure().at(0).inclination_angle;
   EXPECT_NEAR(arkode.measure().at(0).inclination_angle, angle, 5e-3);
   EXPECT_NEAR(interpolated.measure().at(0).inclination_angle, angle, 5e-3);
@@ -93,7 +93,7 @@ TEST(TimeIntegration, ProjectionsAreExactInEveryStep) {
 TEST(TimeIntegration, IntegralTensionTakesTheSteadyAreaErrorAway) {
   SceneSimulation elastic(small_scene()), integral(small_scene({"membrane.integral_rate=10"}));
   double before = 0.0;
-  for (Simulation* s : {&elastic, &integral}) advance(*s, 96);
+  for (SceneSimulation* s : {&elastic, &integral}) advance(*s, 96);
   before = std::abs(integral.measure().at(0).area_error);
   EXPECT_LT(before, 0.2 * std::abs(elastic.measure().at(0).area_error));
   advance(integral, 48);

@@ -24,6 +24,8 @@
 namespace vesiflow::run {
 namespace {
 
+using coupling::have_sundials, coupling::SimulationStopped, coupling::small_scene, coupling::three_vesicles;
+
 namespace fs = std::filesystem;
 
 class RunTest : public testing::Test {
@@ -118,7 +120,7 @@ TEST_F(RunTest, RestartContinuesBitForBitWithMarkerHistory) {
 TEST_F(RunTest, RestartContinuesBitForBitThroughRedistributions) {
   const Overrides always = {"mesh.max_aspect_ratio=1", "time.markers=ab2", "membrane.g=2"};
   compare_restart(folder_, always, 2);
-  SceneSimulation simulation(coupling::small_scene(always));
+  SceneSimulation simulation(small_scene(always));
   restore_checkpoint(at("parts") / "checkpoint.h5", simulation);
   EXPECT_EQ(simulation.redistributions(0), 3);
 }
@@ -135,7 +137,7 @@ TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBit) {
 
 // Nothing is written again, and nothing moved aside; a run whose summary does not say so yet ends once more.
 TEST_F(RunTest, RestartOfACompleteRunChangesNothing) {
-  const Scene scene = coupling::small_scene({"time.end=0.03"});
+  const Scene scene = small_scene({"time.end=0.03"});
   run_scene(scene, at("run"));
   const std::string summary = text_of(at("run") / "summary.json");
   EXPECT_EQ(run_scene(scene, at("run"), at("run") / "checkpoint.h5"), RunStatus::completed);
@@ -147,7 +149,7 @@ TEST_F(RunTest, RestartOfACompleteRunChangesNothing) {
 
 TEST_F(RunTest, RestartRefusesAVesicleWithAnotherPropertyOfItsOwn) {
   const auto refusal = [&](const Overrides& overrides) -> std::string {
-    SceneSimulation simulation(coupling::three_vesicles(overrides));
+    SceneSimulation simulation(three_vesicles(overrides));
     try {
       restore_checkpoint(at("run") / "checkpoint.h5", simulation);
     } catch (const SceneError& error) {
@@ -155,7 +157,7 @@ TEST_F(RunTest, RestartRefusesAVesicleWithAnotherPropertyOfItsOwn) {
     }
     return "accepted";
   };
-  run_scene(coupling::three_vesicles({"time.end=0.05"}), at("run"));
+  run_scene(three_vesicles({"time.end=0.05"}), at("run"));
   EXPECT_EQ(refusal({}), "accepted");
   EXPECT_NE(refusal({"vesicles.1.latitudes=24"}).find("vesicles.1.latitudes = 20, this scene has 24"),
             std::string::npos);
@@ -178,7 +180,7 @@ TEST_F(RunTest, RestartContinuesBitForBitWithEveryTreatmentOfTheViscosity) {
 }
 
 TEST_F(RunTest, RestartContinuesBitForBitWithVesiclesOfTheirOwnViscosity) {
-  Scene scene = coupling::small_scene({"domain.cells=[36, 16, 16]", "domain.upper=[9, 3, 3]", "time.step=1/32", "time.end=0.25",
+  Scene scene = small_scene({"domain.cells=[36, 16, 16]", "domain.upper=[9, 3, 3]", "time.step=1/32", "time.end=0.25",
                              "output.checkpoint_every=0.125"});
   scene.vesicles.push_back(scene.vesicles[0]);
   scene.vesicles[0].viscosity_ratio = 8.0;
@@ -220,7 +222,7 @@ TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithShapeFollowing) {
 TEST_F(RunTest, RestartContinuesShapeFollowingBitForBitThroughRedistributions) {
   const Overrides always = small_three_with({"time.markers=shape_following", "mesh.max_aspect_ratio=1"});
   compare_restart(folder_, always, 2, three_vesicles);
-  SceneSimulation simulation(coupling::three_vesicles(always));
+  SceneSimulation simulation(three_vesicles(always));
   restore_checkpoint(at("parts") / "checkpoint.h5", simulation);
   EXPECT_GT(simulation.redistributions(0), 1);
 }
@@ -249,7 +251,7 @@ TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithArkode) {
 /// The state between two steps of different lengths, one of them refused, through a file.
 TEST_F(RunTest, RestartContinuesSeveralVesiclesBitForBitWithAdaptiveShapeFollowing) {
   fs::create_directories(folder_);
-  const Scene scene = coupling::three_vesicles(small_three_with(
+  const Scene scene = three_vesicles(small_three_with(
       {"time.markers=shape_following", "time.adaptive=true", "time.tolerance=3e-5", "time.step=1/24", "time.end=0.4"}));
   SceneSimulation whole(scene), continued(scene);
   while (whole.time() < 0.2) whole.step();
@@ -268,7 +270,7 @@ TEST_F(RunTest, RestartContinuesBitForBitWithAdaptiveSteps) {
   fs::create_directories(folder_);
   for (const char* markers : {"time.markers=euler", "time.markers=ab2", "time.markers=strain_relaxation"}) {
     const Scene scene =
-        coupling::small_scene({"time.adaptive=true", "time.tolerance=2e-5", "limits.area_error=2e-4", "membrane.g=2", markers});
+        small_scene({"time.adaptive=true", "time.tolerance=2e-5", "limits.area_error=2e-4", "membrane.g=2", markers});
     SceneSimulation whole(scene), continued(scene);
     for (int i = 0; i < 12; ++i) whole.step();
     EXPECT_GT(whole.rejected_steps(), 0);
@@ -283,7 +285,7 @@ TEST_F(RunTest, RestartContinuesBitForBitWithAdaptiveSteps) {
 }
 
 TEST_F(RunTest, AdaptiveRunWritesEachIntervalOnce) {
-  run_scene(coupling::small_scene({"time.adaptive=true", "time.tolerance=4e-5", "output.diagnostics_every=0.05"}), at("run"));
+  run_scene(small_scene({"time.adaptive=true", "time.tolerance=4e-5", "output.diagnostics_every=0.05"}), at("run"));
   std::istringstream table(text_of(at("run") / "diagnostics.csv"));
   std::string row;
   std::getline(table, row);
@@ -299,9 +301,9 @@ TEST_F(RunTest, AdaptiveRunWritesEachIntervalOnce) {
 
 TEST_F(RunTest, RestartContinuesTheFilesOfItsFolder) {
   const std::string cadence = "output.diagnostics_every=0.125";  // so that the first part ends on it
-  run_scene(coupling::small_scene({cadence}), at("whole"));
-  run_scene(coupling::small_scene({cadence, "time.end=0.25"}), at("parts"));
-  run_scene(coupling::small_scene({cadence}), at("parts"), at("parts") / "checkpoint.h5");
+  run_scene(small_scene({cadence}), at("whole"));
+  run_scene(small_scene({cadence, "time.end=0.25"}), at("parts"));
+  run_scene(small_scene({cadence}), at("parts"), at("parts") / "checkpoint.h5");
   EXPECT_EQ(text_of(at("whole") / "diagnostics.csv"), text_of(at("parts") / "diagnostics.csv"));
   EXPECT_EQ(text_of(at("whole") / "vesicle.xdmf"), text_of(at("parts") / "vesicle.xdmf"));
   EXPECT_EQ(text_of(at("whole") / "fluid.xdmf"), text_of(at("parts") / "fluid.xdmf"));
@@ -310,27 +312,27 @@ TEST_F(RunTest, RestartContinuesTheFilesOfItsFolder) {
 
 // A run killed after its last checkpoint leaves rows and snapshots beyond it, which the restart computes again.
 TEST_F(RunTest, RestartDropsWhatWasWrittenAfterTheCheckpoint) {
-  run_scene(coupling::small_scene({"time.end=0.25"}), at("run"));
+  run_scene(small_scene({"time.end=0.25"}), at("run"));
   fs::create_directories(at("kept"));
   fs::copy_file(at("run") / "checkpoint.h5", at("kept") / "checkpoint.h5");
-  run_scene(coupling::small_scene(), at("run"), at("run") / "checkpoint.h5");
+  run_scene(small_scene(), at("run"), at("run") / "checkpoint.h5");
   const std::string whole = text_of(at("run") / "diagnostics.csv"), xdmf = text_of(at("run") / "vesicle.xdmf");
   fs::copy_file(at("kept") / "checkpoint.h5", at("run") / "checkpoint.h5", fs::copy_options::overwrite_existing);
-  run_scene(coupling::small_scene(), at("run"), at("run") / "checkpoint.h5");
+  run_scene(small_scene(), at("run"), at("run") / "checkpoint.h5");
   EXPECT_EQ(text_of(at("run") / "diagnostics.csv"), whole);
   EXPECT_EQ(text_of(at("run") / "vesicle.xdmf"), xdmf);
 }
 
 TEST_F(RunTest, EarlierResultsAreKept) {
-  run_scene(coupling::small_scene({"time.end=0.1"}), at("run"));
+  run_scene(small_scene({"time.end=0.1"}), at("run"));
   const std::string earlier = text_of(at("run") / "diagnostics.csv");
-  run_scene(coupling::small_scene({"time.end=0.1", "flow.rate=2"}), at("run"));
+  run_scene(small_scene({"time.end=0.1", "flow.rate=2"}), at("run"));
   EXPECT_EQ(text_of(at("run") / "previous_1" / "diagnostics.csv"), earlier);
   EXPECT_NE(text_of(at("run") / "diagnostics.csv"), earlier);
 }
 
 TEST_F(RunTest, SwitchedOffOutputIsNotWritten) {
-  run_scene(coupling::small_scene({"time.end=0.1", "output.diagnostics_every=0", "output.vesicle_every=0", "output.fluid_every=0",
+  run_scene(small_scene({"time.end=0.1", "output.diagnostics_every=0", "output.vesicle_every=0", "output.fluid_every=0",
                          "output.checkpoint_every=0"}),
             at("run"));
   EXPECT_TRUE(fs::exists(at("run") / "summary.json"));
@@ -340,7 +342,7 @@ TEST_F(RunTest, SwitchedOffOutputIsNotWritten) {
 
 TEST_F(RunTest, BlowUpNamesStepTimeCauseAndCheckpoint) {
   try {
-    run_scene(coupling::small_scene({"membrane.g=15.5", "time.end=20", "output.checkpoint_every=0.02"}), at("run"));
+    run_scene(small_scene({"membrane.g=15.5", "time.end=20", "output.checkpoint_every=0.02"}), at("run"));
     FAIL() << "should have stopped";
   } catch (const coupling::SimulationStopped& reason) {
     const std::string message = reason.what();
@@ -348,15 +350,15 @@ TEST_F(RunTest, BlowUpNamesStepTimeCauseAndCheckpoint) {
       EXPECT_NE(message.find(part), std::string::npos) << message;
   }
   EXPECT_NE(text_of(at("run") / "summary.json").find("\"status\": \"stopped\""), std::string::npos);
-  SceneSimulation simulation(coupling::small_scene({"membrane.g=15.5", "time.end=20"}));
+  SceneSimulation simulation(small_scene({"membrane.g=15.5", "time.end=20"}));
   EXPECT_NO_THROW(restore_checkpoint(at("run") / "checkpoint.h5", simulation));
 }
 
 TEST_F(RunTest, RefusesUnusableCheckpointsAndTouchesNothing) {
-  run_scene(coupling::small_scene({"time.end=0.1"}), at("run"));
+  run_scene(small_scene({"time.end=0.1"}), at("run"));
   const fs::path good = at("run") / "checkpoint.h5", bad = at("bad.h5");
   const auto refused = [&](const Overrides& overrides, const fs::path& checkpoint) {
-    EXPECT_THROW(run_scene(coupling::small_scene(overrides), at("other"), checkpoint), SceneError);
+    EXPECT_THROW(run_scene(small_scene(overrides), at("other"), checkpoint), SceneError);
     EXPECT_FALSE(fs::exists(at("other")));
   };
   refused({}, at("missing.h5"));
@@ -372,30 +374,30 @@ TEST_F(RunTest, RefusesUnusableCheckpointsAndTouchesNothing) {
 TEST_F(RunTest, RefusesAFolderThatCannotBeWritten) {
   fs::create_directories(folder_);
   std::ofstream(at("file")) << "in the way";
-  EXPECT_THROW(run_scene(coupling::small_scene({"time.end=0.1"}), at("file") / "run"), FileError);
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("file") / "run"), FileError);
   EXPECT_EQ(text_of(at("file")), "in the way");
 }
 
 // A kill within the write of a row leaves a part of it.
 TEST_F(RunTest, RestartRemovesATornRowOfTheTable) {
   const std::string cadence = "output.diagnostics_every=0.125";
-  run_scene(coupling::small_scene({cadence}), at("whole"));
-  run_scene(coupling::small_scene({cadence, "time.end=0.25"}), at("parts"));
+  run_scene(small_scene({cadence}), at("whole"));
+  run_scene(small_scene({cadence, "time.end=0.25"}), at("parts"));
   std::ofstream(at("parts") / "diagnostics.csv", std::ios::app) << "36,0.3";
-  run_scene(coupling::small_scene({cadence}), at("parts"), at("parts") / "checkpoint.h5");
+  run_scene(small_scene({cadence}), at("parts"), at("parts") / "checkpoint.h5");
   EXPECT_EQ(text_of(at("whole") / "diagnostics.csv"), text_of(at("parts") / "diagnostics.csv"));
 }
 
 // The list of snapshots for ParaView never names one that is not in the file: a restart takes both back, though its end writes none.
 TEST_F(RunTest, RestartDropsSnapshotsFromTheListToo) {
-  run_scene(coupling::small_scene({"time.end=0.25"}), at("run"));
+  run_scene(small_scene({"time.end=0.25"}), at("run"));
   fs::create_directories(at("kept"));
   fs::copy_file(at("run") / "checkpoint.h5", at("kept") / "checkpoint.h5");
   const std::string list = text_of(at("run") / "vesicle.xdmf"), fluid_list = text_of(at("run") / "fluid.xdmf");
-  run_scene(coupling::small_scene(), at("run"), at("run") / "checkpoint.h5");
+  run_scene(small_scene(), at("run"), at("run") / "checkpoint.h5");
   EXPECT_NE(text_of(at("run") / "vesicle.xdmf"), list);
   fs::copy_file(at("kept") / "checkpoint.h5", at("run") / "checkpoint.h5", fs::copy_options::overwrite_existing);
-  run_scene(coupling::small_scene({"time.end=0.25"}), at("run"), at("run") / "checkpoint.h5");
+  run_scene(small_scene({"time.end=0.25"}), at("run"), at("run") / "checkpoint.h5");
   EXPECT_EQ(text_of(at("run") / "vesicle.xdmf"), list);
   EXPECT_EQ(text_of(at("run") / "fluid.xdmf"), fluid_list);
 }
@@ -406,14 +408,14 @@ TEST_F(RunTest, LeftoversOfAKillAreRemoved) {
   const fs::path list = at("run") / "vesicle.h5.part", snapshot = at("run") / "snapshots" / "fluid_000000007.h5.part",
                  lock = at("run") / "run.lock.a1B2c3.part", of_the_user = at("run") / "film.mp4.part";
   for (const fs::path& part : {list, snapshot, lock, of_the_user}) std::ofstream(part) << "half a file";
-  run_scene(coupling::small_scene({"time.end=0.05"}), at("run"));
+  run_scene(small_scene({"time.end=0.05"}), at("run"));
   for (const fs::path& part : {list, snapshot, lock}) EXPECT_FALSE(fs::exists(part)) << part;
   EXPECT_TRUE(fs::exists(of_the_user));
 }
 
 TEST_F(RunTest, EarlierSnapshotsMoveWithTheirLists) {
-  run_scene(coupling::small_scene({"time.end=0.05"}), at("run"));
-  run_scene(coupling::small_scene({"time.end=0.05", "output.fluid_every=0"}), at("run"));
+  run_scene(small_scene({"time.end=0.05"}), at("run"));
+  run_scene(small_scene({"time.end=0.05", "output.fluid_every=0"}), at("run"));
   EXPECT_TRUE(fs::exists(at("run") / "previous_1" / "snapshots" / "fluid_000000000.h5"));
   EXPECT_TRUE(fs::exists(at("run") / "snapshots" / "vesicle_000000000.h5"));
   EXPECT_FALSE(fs::exists(at("run") / "snapshots" / "fluid_000000000.h5"));
@@ -421,7 +423,7 @@ TEST_F(RunTest, EarlierSnapshotsMoveWithTheirLists) {
 
 /// Numbers and sizes of the files that the plan speaks of are those that a run writes.
 TEST_F(RunTest, PlanSaysHowManySnapshotsThereWillBeAndOfWhatSize) {
-  const Scene scene = coupling::small_scene({"time.end=0.25", "output.vesicle_every=1/24", "output.fluid_every=0.1"});
+  const Scene scene = small_scene({"time.end=0.25", "output.vesicle_every=1/24", "output.fluid_every=0.1"});
   run_scene(scene, at("run"));
   const std::string plan = describe_plan(scene, 1);
   for (const auto& [name, label] :
@@ -453,18 +455,18 @@ std::map<fs::path, std::string> contents_of(const fs::path& folder) {
 }
 
 TEST_F(RunTest, ASecondRunInTheSameFolderIsRefusedAndTouchesNothing) {
-  run_scene(coupling::small_scene({"time.end=0.05"}), at("run"));
+  run_scene(small_scene({"time.end=0.05"}), at("run"));
   std::ofstream(at("run") / "fluid.h5.part") << "what the first run is writing";
   const FolderLock of_the_first_run(at("run"));
   const auto before = contents_of(at("run"));
-  EXPECT_THROW(run_scene(coupling::small_scene({"time.end=0.05"}), at("run")), FileError);
-  EXPECT_THROW(run_scene(coupling::small_scene({"time.end=0.1"}), at("run"), at("run") / "checkpoint.h5"), FileError);
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.05"}), at("run")), FileError);
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("run"), at("run") / "checkpoint.h5"), FileError);
   EXPECT_EQ(contents_of(at("run")), before);
 }
 
 /// A checkpoint that another run is writing is not read: which one it is would be known only afterwards.
 TEST_F(RunTest, WhatAnotherRunHasIsNotEvenRead) {
-  const Scene scene = coupling::small_scene({"time.end=0.05"}), of_other_kind = coupling::small_scene({"mesh.latitudes=20"});
+  const Scene scene = small_scene({"time.end=0.05"}), of_other_kind = small_scene({"mesh.latitudes=20"});
   run_scene(scene, at("run"));
   const fs::path checkpoint = at("run") / "checkpoint.h5";
   const FolderLock of_another_run(at("run"));
@@ -472,7 +474,7 @@ TEST_F(RunTest, WhatAnotherRunHasIsNotEvenRead) {
   EXPECT_THROW(run_scene(of_other_kind, at("run"), checkpoint), FileError);
   EXPECT_THROW(run_scene(of_other_kind, at("elsewhere"), checkpoint), SceneError);
   for (const fs::path& start : {at("run"), checkpoint}) {
-    SceneSimulation simulation(coupling::three_vesicles({}));
+    SceneSimulation simulation(three_vesicles({}));
     RunOptions options;
     options.quiet = true;
     options.start_from = start;
@@ -484,16 +486,16 @@ TEST_F(RunTest, WhatAnotherRunHasIsNotEvenRead) {
 }
 
 TEST_F(RunTest, RefusesSnapshotsThatCannotBeRead) {
-  const Scene scene = coupling::small_scene({"time.end=0.05"});
+  const Scene scene = small_scene({"time.end=0.05"});
   run_scene(scene, at("run"));
   fs::remove_all(at("run") / "snapshots");
   std::ofstream(at("run") / "snapshots") << "not a folder";
-  EXPECT_THROW(run_scene(coupling::small_scene({"time.end=0.1"}), at("run"), at("run") / "checkpoint.h5"), FileError);
+  EXPECT_THROW(run_scene(small_scene({"time.end=0.1"}), at("run"), at("run") / "checkpoint.h5"), FileError);
 }
 
 // Calls `harm` after the first step of a run and returns what the run says.
 std::string error_of_run(const fs::path& folder, const std::function<void()>& harm,
-                         const Scene& scene = coupling::small_scene({"time.end=0.1", "output.diagnostics_every=1/96"})) {
+                         const Scene& scene = small_scene({"time.end=0.1", "output.diagnostics_every=1/96"})) {
   SceneSimulation simulation(scene);
   RunOptions options;
   options.directory = folder;
@@ -531,7 +533,7 @@ TEST_F(RunTest, SaysWhyItStoppedWithoutItsSummaryToo) {
         fs::remove(at("run") / "summary.json");
         fs::create_directories(at("run") / "summary.json" / "in the way");
       },
-      coupling::small_scene({"membrane.g=15.5", "time.end=20", "output.checkpoint_every=0"}));
+      small_scene({"membrane.g=15.5", "time.end=20", "output.checkpoint_every=0"}));
   EXPECT_NE(error.find("likely cause"), std::string::npos) << error;
 }
 
@@ -553,7 +555,7 @@ TEST_F(RunTest, WritesWhereItBeganThoughTheProcessMoves) {
 
 TEST_F(RunTest, CallsBackAfterEachStepAndBeforeEachOutput) {
   const Scene scene =
-      coupling::small_scene({"time.step=1/32", "time.end=0.125", "output.diagnostics_every=1/32", "output.vesicle_every=1/16",
+      small_scene({"time.step=1/32", "time.end=0.125", "output.diagnostics_every=1/32", "output.vesicle_every=1/16",
                    "output.fluid_every=0", "output.checkpoint_every=0.125"});
   SceneSimulation simulation(scene);
   RunOptions options;
@@ -571,7 +573,7 @@ TEST_F(RunTest, CallsBackAfterEachStepAndBeforeEachOutput) {
 
 /// What a callback throws ends the run like an error of its own, with a summary that names the last checkpoint.
 TEST_F(RunTest, EndsWithWhatACallbackThrows) {
-  SceneSimulation simulation(coupling::small_scene({"time.end=0.1", "output.checkpoint_every=1/96"}));
+  SceneSimulation simulation(small_scene({"time.end=0.1", "output.checkpoint_every=1/96"}));
   RunOptions options;
   options.directory = at("run");
   options.quiet = true;
@@ -588,7 +590,7 @@ TEST_F(RunTest, EndsWithWhatACallbackThrows) {
   options.directory = at("other");
   options.after_step = {};
   options.before_output = [](const SceneSimulation&, RunOutput) { throw std::out_of_range("of the host"); };
-  SceneSimulation another(coupling::small_scene({"time.end=0.1"}));
+  SceneSimulation another(small_scene({"time.end=0.1"}));
   EXPECT_THROW(run(another, options), std::out_of_range);
 }
 
@@ -600,8 +602,8 @@ TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {
 }
 
 TEST(MemoryWarning, NamesWhatASceneTakesAndWhatThereIs) {
-  EXPECT_EQ(memory_warning(coupling::small_scene()), "");
-  const std::string warning = memory_warning(coupling::small_scene({"domain.cells=2048"}));
+  EXPECT_EQ(memory_warning(small_scene()), "");
+  const std::string warning = memory_warning(small_scene({"domain.cells=2048"}));
   EXPECT_NE(warning.find("this scene takes about"), std::string::npos) << warning;
 }
 

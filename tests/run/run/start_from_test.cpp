@@ -152,7 +152,7 @@ TEST_F(StartFrom, MaterialMarkersKeepTheMeanTension) {
       write_checkpoint(folder_ / "one_step.h5", simulation);
       SceneSimulation restarted(scene);
       restore_checkpoint(folder_ / "one_step.h5", restarted);
-      for (Simulation* each : {&simulation, &restarted}) each->step();
+      for (SceneSimulation* each : {&simulation, &restarted}) each->step();
       EXPECT_TRUE((restarted.membrane(0).target_areas() == simulation.membrane(0).target_areas()).all());
       EXPECT_EQ(largest_difference(restarted.state(), simulation.state()), 0.0);
     }

@@ -192,7 +192,7 @@ TEST_F(InitialShapeTest, DegreesOfTheFitFollowFromTheMesh) {
   const Scene two = scene_with(keys + "[[vesicles]]\nradius = 0.3\ncentre = [1.4, 1.4, 1.4]\n" + keys);
   ASSERT_EQ(two.vesicles.size(), 2u);
   EXPECT_EQ(two.vesicles[1].surface->energy(0, 2), two.vesicles[0].surface->energy(0, 2));
-  EXPECT_FALSE(two.vesicles[1].fit_degrees);
+  EXPECT_FALSE(two.surface_file(1).fit_degrees);
 }
 
 /// A shape that is not star-shaped starts a simulation like any other: it keeps its area and volume, its membrane hardly yields.
@@ -220,7 +220,7 @@ TEST_F(InitialShapeTest, ScenesAreWrittenBackAndReadTheSameFromAnywhere) {
     EXPECT_EQ(to_toml(again), text);
     EXPECT_TRUE((start_of(again) == start_of(scene)).all()) << keys;
   }
-  EXPECT_EQ(*scene_with(coefficients_keys).vesicles[0].file, (folder_ / "shapes/a.txt").string());
+  EXPECT_EQ(*scene_with(coefficients_keys).surface_file(0).file, (folder_ / "shapes/a.txt").string());
 }
 
 TEST_F(InitialShapeTest, BadKeysAreRefusedByName) {
@@ -266,20 +266,20 @@ TEST_F(InitialShapeTest, BadFilesAreRefusedByKeyFileAndLine) {
 TEST_F(InitialShapeTest, ProgramsMayGiveTheSurfaceThemselves) {
   Scene scene = scene_with("shape = \"sphere\"\n");
   scene.vesicles[0].shape = coupling::Shape::coefficients;
-  scene.vesicles[0].file = "never read";
+  scene.surface_files[0].file = "never read";
   EXPECT_THROW(check_scene(scene, "program"), SceneError);
-  scene.vesicles[0].file.reset();
+  scene.surface_files[0].file.reset();
   scene.vesicles[0].surface = some_surface();
   EXPECT_NO_THROW(check_scene(scene, "program"));
   EXPECT_TRUE(
       (start_of(scene) == vesicle::shape_from_coefficients(vesicle::SphereGrid(latitudes), some_surface(), placement))
           .all());
   scene.vesicles[0].shape = coupling::Shape::mesh;
-  scene.vesicles[0].fit_degrees = 15;
+  scene.surface_files[0].fit_degrees = 15;
   EXPECT_NO_THROW(check_scene(scene, "program"));
-  scene.vesicles[0].fit_degrees = 16;
+  scene.surface_files[0].fit_degrees = 16;
   EXPECT_THROW(check_scene(scene, "program"), SceneError);
-  scene.vesicles[0].fit_degrees.reset();
+  scene.surface_files[0].fit_degrees.reset();
   scene.vesicles[0].shape = coupling::Shape::sphere;
   EXPECT_THROW(check_scene(scene, "program"), SceneError);
 }

@@ -55,10 +55,10 @@ TEST(Scene, PresetSetsDefaultsThatKeysStillOverride) {
 // What docs/time_integration.md recommends; the paper's preset has the paper's markers, which that step and tension would blow up.
 TEST(Scene, DefaultStepAndTensionBelongToTheDefaultMarkers) {
   const Scene standard = parse(sphere), paper = parse(sphere, {"method.preset=paper"});
-  EXPECT_EQ(standard.time.markers, "shape_following");
+  EXPECT_EQ(standard.time.markers, coupling::MarkerMotion::shape_following);
   EXPECT_EQ(standard.time.step, 1.0 / 48.0);
   EXPECT_EQ(standard.membrane.sigma0, 2000.0);
-  EXPECT_EQ(paper.time.markers, "euler");
+  EXPECT_EQ(paper.time.markers, coupling::MarkerMotion::euler);
   EXPECT_EQ(paper.time.step, 1.0 / 192.0);
   EXPECT_EQ(paper.membrane.sigma0, 600.0);
   EXPECT_LT(paper.tension_number(), paper.stable_tension_number());
@@ -383,7 +383,7 @@ TEST(Scene, RefusesTimeKeysThatDoNotGoTogether) {
   expect_parts(message_of(sphere, {"time.step=1/24", "time.markers=strain_relaxation", soft}), {"accepted"});
   expect_parts(message_of(sphere, {"time.step=1/24", "membrane.integral_rate=5"}),
                {"membrane.integral_rate = 5", "shape_following"});
-  if (have_sundials()) {
+  if (coupling::have_sundials()) {
     const auto implicit = [](const char* key) {
       return message_of(sphere, {"time.markers=implicit", "time.step=1/24", key});
     };
