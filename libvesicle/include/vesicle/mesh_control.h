@@ -18,9 +18,6 @@ enum class FilterOrder {
   components,
 };
 
-/// The paper's 2/3 rule: the number of degrees n < 2N/3.
-int two_thirds_degrees(int latitudes);
-
 /// The velocity filter that keeps the marker mesh smooth. The normal velocity is only dealiased; the
 /// tangential one, which does not change the shape, keeps few degrees.
 class MeshFilter {
