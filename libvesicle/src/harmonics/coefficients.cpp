@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "check.h"
+#include "vesicle/scale_degrees.h"
 
 namespace vesiflow::vesicle {
 namespace {
@@ -64,11 +65,7 @@ void Coefficients::filter_exponentially(double strength, double order) {
   check_argument(std::isfinite(strength) && strength >= 0, "strength", strength, "finite and >= 0");
   check_argument(order > 0, "order", order, "> 0");
   const double highest = std::max(1, degrees_ - 1);
-  for (int n = 0; n < degrees_; ++n) {
-    const double factor = std::exp(-strength * std::pow(n / highest, order));
-    for (int m = 0; m <= n; ++m)
-      for (int field = 0; field < fields_; ++field) (*this)(field, n, m) *= factor;
-  }
+  scale_degrees(*this, [&](int n) { return std::exp(-strength * std::pow(n / highest, order)); });
 }
 
 double Coefficients::dot(const Coefficients& other) const {

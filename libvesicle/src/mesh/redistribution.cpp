@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "check.h"
-#include "vesicle/mesh_control.h"
+#include "harmonics/check_grid.h"
 
 namespace vesiflow::vesicle {
 namespace {
@@ -39,13 +39,11 @@ void normalise(VectorField& field) {
 
 }  // namespace
 
-double mesh_energy_weight(int degree) {
-  const double n = degree;
-  return (n - 1.0) * n * (n + 1.0) * (n + 2.0);
-}
-
 MeshRedistribution::MeshRedistribution(int latitudes, int kept_degrees)
-    : surface_(latitudes), smoothing_(two_thirds_degrees(latitudes), surface_.grid()), evaluation_(latitudes) {
+    : surface_(latitudes),
+      smoothing_(two_thirds_degrees(latitudes), surface_.grid()),
+      evaluation_(latitudes),
+      descent_({.damping = damping}) {
   check_argument(kept_degrees >= 0 && kept_degrees <= latitudes, "kept_degrees", kept_degrees, "in [0, latitudes]");
   if (kept_degrees > 0 && kept_degrees < latitudes) truncation_.emplace(kept_degrees, surface_.grid());
   const Eigen::Index markers = surface_.grid().size();
@@ -55,15 +53,8 @@ MeshRedistribution::MeshRedistribution(int latitudes, int kept_degrees)
   map_ = unit_sphere(surface_.grid());
 }
 
-double MeshRedistribution::energy() const {
-  double sum = 0;
-  const Coefficients& c = surface_.position_coefficients();
-  for (int n = 2; n < c.degrees(); ++n) sum += mesh_energy_weight(n) * c.energy(n, n + 1);
-  return sum / 2;
-}
-
 RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
-  check_markers(surface.positions(), "surface", surface_.grid().size());
+  check_grid(surface.grid(), "surface", surface_.grid());
   map_ = unit_sphere(surface_.grid());
   surface_.update(surface.positions());
   const Coefficients& original = surface.position_coefficients();
@@ -102,28 +93,6 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
   return report;
 }
 
-void MeshRedistribution::project(VectorField& field) const {
-  const VectorField& n = surface_.normal();
-  const ScalarField normal = (field * n).rowwise().sum();
-  for (int component = 0; component < 3; ++component) field.col(component) -= normal * n.col(component);
-}
-
-void MeshRedistribution::weigh(const VectorField& field, bool inverse, VectorField& result) {
-  surface_.harmonics().analysis(field, coefficients_);
-  for (int n = 0; n < coefficients_.degrees(); ++n) {
-    const double factor = inverse ? 1 / (mesh_energy_weight(n) + damping) : mesh_energy_weight(n);
-    for (int m = 0; m <= n; ++m)
-      for (int f = 0; f < 3; ++f) coefficients_(f, n, m) *= factor;
-  }
-  surface_.harmonics().synthesis(coefficients_, result);
-}
-
-void MeshRedistribution::apply_operator(const VectorField& field, VectorField& result) {
-  weigh(field, false, result);
-  result += damping * field;
-  project(result);
-}
-
 double MeshRedistribution::inner(const VectorField& a, const VectorField& b) const {
   const SphereGrid& grid = surface_.grid();
   double sum = 0;
@@ -135,14 +104,12 @@ double MeshRedistribution::inner(const VectorField& a, const VectorField& b) con
 }
 
 void MeshRedistribution::find_displacement() {
+  const SphericalHarmonics& harmonics = surface_.harmonics();
   displacement_.setZero();
-  weigh(surface_.positions(), false, residual_);
-  residual_ *= -1;
-  project(residual_);
+  descent_.force(harmonics, surface_, residual_);
   double old = 0;
   for (int step = 0; step < conjugate_gradient_steps; ++step) {
-    weigh(residual_, true, preconditioned_);
-    project(preconditioned_);
+    descent_.precondition(harmonics, surface_, residual_, preconditioned_);
     const double now = inner(residual_, preconditioned_);
     if (!(now > 0)) break;
     if (step == 0)
@@ -150,7 +117,7 @@ void MeshRedistribution::find_displacement() {
     else
       direction_ = preconditioned_ + (now / old) * direction_;
     old = now;
-    apply_operator(direction_, product_);
+    descent_.apply_second_derivative(harmonics, surface_, direction_, product_);
     const double length = now / inner(direction_, product_);
     displacement_ += length * direction_;
     residual_ -= length * product_;

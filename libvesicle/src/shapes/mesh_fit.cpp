@@ -17,6 +17,7 @@
 #include "shapes/smooth_interpolant.h"
 #include "shapes/smoothing_fit.h"
 #include "shapes/sphere_map.h"
+#include "vesicle/scale_degrees.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
 
@@ -256,11 +257,8 @@ MeshFit fit_mesh(const TriangleMesh& mesh, int degrees) {
 
   // Back to the place and the size of the mesh.
   const double size = unit.size;
-  for (int field = 0; field < 3; ++field) {
-    for (int n = 0; n < degrees; ++n)
-      for (int m = 0; m <= n; ++m) fit.surface(field, n, m) *= size;
-    fit.surface(field, 0, 0) += unit.centre[field] * std::sqrt(4 * pi);
-  }
+  scale_degrees(fit.surface, [size](int) { return size; });
+  for (int field = 0; field < 3; ++field) fit.surface(field, 0, 0) += unit.centre[field] * std::sqrt(4 * pi);
   fit.radius *= size;
   fit.roughness *= size * size;
   for (AreaAndVolume* of : {&fit.fitted, &fit.triangles, &fit.smooth}) {

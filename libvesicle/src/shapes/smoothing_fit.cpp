@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "harmonics/harmonics_at.h"
-#include "vesicle/redistribution.h"
+#include "vesicle/mesh_energy.h"
 
 namespace vesiflow::vesicle {
 namespace {
