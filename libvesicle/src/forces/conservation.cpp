@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "check.h"
+#include "harmonics/check_grid.h"
 #include "vesicle/area.h"
 
 namespace vesiflow::vesicle {
@@ -90,7 +91,8 @@ void ConservationProjection::add(const Eigen::Vector2d& multipliers, VectorField
 
 void ConservationProjection::correct_velocity(const Surface& surface, double dt, VectorField& velocity) {
   check_argument(std::isfinite(dt) && dt > 0, "dt", dt, "finite and > 0");
-  check_markers(velocity, "velocity", surface.grid().size());
+  check_grid(surface.grid(), "surface", grid_);
+  check_markers(velocity, "velocity", grid_.size());
   check_finite(velocity, "a velocity");
   set_directions(surface);
   Eigen::Vector2d missing = Eigen::Vector2d::Zero();
@@ -102,7 +104,8 @@ void ConservationProjection::correct_velocity(const Surface& surface, double dt,
 }
 
 void ConservationProjection::remove_rates(const Surface& surface, VectorField& velocity) {
-  check_markers(velocity, "velocity", surface.grid().size());
+  check_grid(surface.grid(), "surface", grid_);
+  check_markers(velocity, "velocity", grid_.size());
   check_finite(velocity, "a velocity");
   if (!conserved_.volume && !conserved_.area) return;
   set_directions(surface);
@@ -114,7 +117,8 @@ void ConservationProjection::remove_rates(const Surface& surface, VectorField& v
 }
 
 void ConservationProjection::correct_displacement(const Surface& surface, VectorField& displacement) {
-  check_markers(displacement, "displacement", surface.grid().size());
+  check_grid(surface.grid(), "surface", grid_);
+  check_markers(displacement, "displacement", grid_.size());
   if (!conserved_.volume && !conserved_.area) return;
   if (!moved_) moved_.emplace(grid_);
   set_directions(surface);

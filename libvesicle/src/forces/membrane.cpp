@@ -115,6 +115,7 @@ void Membrane::filter_velocity(const VectorField& velocity, double dt, VectorFie
 }
 
 void Membrane::correct_displacement(VectorField& displacement) {
+  check_markers(displacement, "displacement", positions_.rows());
   if (!conservation_) return;
   ++entries_.conservation;
   conservation_->correct_displacement(surface_, displacement);
@@ -123,6 +124,8 @@ void Membrane::correct_displacement(VectorField& displacement) {
 void Membrane::advance(const VectorField& new_positions, const VectorField& velocity, const VectorField& filtered,
                        double dt) {
   check_markers(new_positions, "new_positions", positions_.rows());
+  check_markers(velocity, "velocity", positions_.rows());
+  check_markers(filtered, "filtered", positions_.rows());
   check_finite(new_positions, "a new position");
   if (relaxes_strain() || integral_) strain_ = (surface_.area_weight() / target_areas_).log();
   if (tension_force_) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "check.h"
 #include "vesicle/surface.h"
 
 namespace vesiflow::vesicle {
@@ -17,7 +18,12 @@ void Resampling::apply(const SphericalHarmonics::Input& values, SphericalHarmoni
 }
 
 MembraneState resample(const MembraneState& state, const SphereGrid& from, const SphereGrid& to) {
-  if (from.latitudes() == to.latitudes()) return state;
+  check_markers(state.positions, "positions", from.size());
+  check_markers(state.target_areas, "target_areas", from.size());
+  check_markers(state.initial_areas, "initial_areas", from.size());
+  if (state.lagged_strain.size() > 0) check_markers(state.lagged_strain, "lagged_strain", from.size());
+  if (state.integral_tension.size() > 0) check_markers(state.integral_tension, "integral_tension", from.size());
+  if (from == to) return state;
   const Resampling resampling(from, to);
   MembraneState result;
   result.positions.resize(to.size(), 3);

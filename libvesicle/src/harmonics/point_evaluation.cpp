@@ -59,8 +59,7 @@ void PointEvaluation::values_at(const Coefficients& coefficients, const VectorFi
   const int fields = coefficients.fields();
   check_argument(coefficients.degrees() <= degrees_, "degrees of the coefficients", coefficients.degrees(),
                  "at most those of the evaluation");
-  check_argument(values.rows() == directions.rows(), "rows of values", values.rows(), "one per direction");
-  check_argument(values.cols() == fields, "columns of values", values.cols(), "one per field");
+  check_shape(values, "values", directions.rows(), fields);
   if (directions.rows() == 0) return;
   const double off = (directions.square().rowwise().sum() - 1).abs().maxCoeff<Eigen::PropagateNaN>();
   check_argument(off < 2e-8, "largest ||direction|^2 - 1|", off, "below 2e-8");

@@ -11,6 +11,12 @@
 namespace vesiflow::vesicle {
 namespace {
 
+/// What the field is called in the arguments of the transforms.
+const char* argument_name(Derivative derivative) {
+  constexpr std::array names{"values", "theta", "phi", "theta_theta", "theta_phi", "phi_phi"};
+  return names[static_cast<std::size_t>(derivative)];
+}
+
 /// Fields by kind, as the stages share the sums of neighbours of one kind.
 template <class Value>
 class FieldList {
@@ -106,9 +112,7 @@ class SphericalHarmonics::Implementation {
     FieldList<double> results;
     for (const Request& request : requests) {
       Output values = request.values;
-      check_markers(values, "field", grid_.size());
-      check_argument(values.cols() == coefficients.fields(), "columns of the output", values.cols(),
-                     "the number of fields");
+      check_shape(values, argument_name(request.derivative), grid_.size(), coefficients.fields());
       results.add(request.derivative, values.data(), values.outerStride());
     }
     stages_.evaluate(coefficients, results.fields());
@@ -133,8 +137,7 @@ class SphericalHarmonics::Implementation {
     FieldList<const double> fields;
     const Eigen::Index columns = given.begin()->values.cols();
     for (const Given& g : given) {
-      check_markers(g.values, "field", grid_.size());
-      check_argument(g.values.cols() == columns, "columns of a field", g.values.cols(), "equal for all");
+      check_shape(g.values, argument_name(g.derivative), grid_.size(), columns);
       fields.add(g.derivative, g.values.data(), g.values.outerStride());
     }
     coefficients.resize(degrees_, static_cast<int>(columns));

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "check.h"
+#include "harmonics/check_grid.h"
 #include "surface/columns.h"
 
 namespace vesiflow::vesicle {
@@ -40,7 +41,7 @@ MeshFilter::MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_deg
 
 void MeshFilter::apply(const Surface& surface, const VectorField& velocity, VectorField& filtered) {
   check_markers(velocity, "velocity", part_.rows());
-  check_markers(surface.normal(), "surface", part_.rows());
+  check_grid(surface.grid(), "surface", normal_harmonics_.grid());
   check_finite(velocity, "a velocity");
   filtered.resize(part_.rows(), 3);
   if (order_ == FilterOrder::velocity_first)
@@ -70,7 +71,8 @@ void MeshFilter::filter_components(const VectorField& normal, const VectorField&
 }
 
 TargetAreaUpdate::TargetAreaUpdate(const SphereGrid& grid, SlipReference reference)
-    : coefficients_(grid.latitudes(), 3),
+    : grid_(grid),
+      coefficients_(grid.latitudes(), 3),
       slip_(grid.size(), 3),
       normal_slip_(grid.size()),
       slip_divergence_(grid.size()) {
@@ -79,7 +81,8 @@ TargetAreaUpdate::TargetAreaUpdate(const SphereGrid& grid, SlipReference referen
 
 void TargetAreaUpdate::apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered,
                              double dt, double total_area, ScalarField& target_areas) {
-  const Eigen::Index markers = surface.grid().size();
+  const Eigen::Index markers = grid_.size();
+  check_grid(surface.grid(), "surface", grid_);
   check_markers(velocity, "velocity", markers);
   check_markers(filtered, "filtered", markers);
   check_markers(target_areas, "target_areas", markers);

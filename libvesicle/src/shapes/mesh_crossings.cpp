@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "shapes/vertex_numbers.h"
 #include "vesicle/triangle_mesh.h"
 
 namespace vesiflow::vesicle {
@@ -38,6 +39,7 @@ struct Box {
 }  // namespace
 
 void check_no_crossings(const TriangleMesh& mesh) {
+  check_vertex_numbers(mesh);
   const auto triangles = static_cast<std::size_t>(mesh.triangles.rows());
   std::vector<Corners> corners(triangles);
   std::vector<Box> boxes(triangles);

@@ -10,6 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include "shapes/vertex_numbers.h"
+
 namespace vesiflow::vesicle {
 namespace {
 
@@ -36,14 +38,18 @@ void check_vertices(const TriangleMesh& mesh) {
            " are at the same point: merge them if the mesh was only split there; if not, the surface touches itself");
 }
 
+void check_vertex_number(const TriangleMesh& mesh, Eigen::Index triangle, int vertex) {
+  if (vertex >= 0 && vertex < mesh.vertices.rows()) return;
+  refuse("triangle " + number(triangle) + " has vertex " + number(vertex) + ": must be in [0, " +
+         number(mesh.vertices.rows() - 1) + "]");
+}
+
 void check_corners(const TriangleMesh& mesh) {
   std::vector<bool> is_used(static_cast<std::size_t>(mesh.vertices.rows()));
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const auto corner = mesh.triangles.row(t);
     for (int k : corner) {
-      if (k < 0 || k >= mesh.vertices.rows())
-        refuse("triangle " + number(t) + " has vertex " + number(k) + ": must be in [0, " +
-               number(mesh.vertices.rows() - 1) + "]");
+      check_vertex_number(mesh, t, k);
       is_used[static_cast<std::size_t>(k)] = true;
     }
     if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
@@ -153,6 +159,11 @@ void check_fans(const TriangleMesh& mesh, const Neighbours& neighbours) {
 
 }  // namespace
 
+void check_vertex_numbers(const TriangleMesh& mesh) {
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t)
+    for (const int vertex : mesh.triangles.row(t)) check_vertex_number(mesh, t, vertex);
+}
+
 void check_closed_genus_zero(const TriangleMesh& mesh) {
   check_vertices(mesh);
   check_corners(mesh);
@@ -167,6 +178,7 @@ void check_closed_genus_zero(const TriangleMesh& mesh) {
 }
 
 EnclosedVolume enclosed_volume(const TriangleMesh& mesh) {
+  check_vertex_numbers(mesh);
   // About a point of the surface's box: sums of nearly equal terms of either sign would lose digits far from the
   // origin.
   const Vector3 origin = mesh.vertices.colwise().mean().matrix().transpose();

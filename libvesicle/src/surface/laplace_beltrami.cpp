@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "check.h"
+#include "harmonics/check_grid.h"
 
 namespace vesiflow::vesicle {
 namespace {
@@ -28,7 +29,7 @@ class LaplaceBeltrami::Implementation {
   double last_factor() const { return last_factor_; }
 
   void apply(const Surface& surface, const ScalarField& scalar, ScalarField& result) {
-    check_grid(surface);
+    check_grid(surface.grid(), "surface", grid_);
     check_markers(scalar, "scalar", grid_.size());
     Level& fine = select(surface);
     surface.harmonics().analysis(scalar, coefficients_);
@@ -40,7 +41,7 @@ class LaplaceBeltrami::Implementation {
   }
 
   void of_mean_curvature(const Surface& surface, ScalarField& result) {
-    check_grid(surface);
+    check_grid(surface.grid(), "surface", grid_);
     Level& fine = select(surface);
     fine.geometry.update(fine.surface_degrees, surface.position_coefficients(), GeometryDetail::curvature);
     fine.all_degrees.analysis(fine.geometry.mean_curvature(), coefficients_);
@@ -69,11 +70,6 @@ class LaplaceBeltrami::Implementation {
     VectorField theta, phi, second;
     ScalarField divergence;
   };
-
-  void check_grid(const Surface& surface) const {
-    check_argument(surface.grid() == grid_, "latitudes of the surface", surface.grid().latitudes(),
-                   "those of the Laplacian, with as many longitudes");
-  }
 
   Level& level(Upsampling upsampling) {
     auto& slot = levels_[static_cast<std::size_t>(upsampling)];

@@ -79,6 +79,7 @@ double Surface::flux(const VectorField& field) const {
 }
 
 void Surface::gradient(const ScalarField& scalar, VectorField& result) const {
+  check_markers(scalar, "scalar", grid_.size());
   result.resize(grid_.size(), 3);
   harmonics_.analysis(scalar, work_->coefficients);
   auto theta = work_->theta.leftCols(1);
@@ -90,6 +91,7 @@ void Surface::gradient(const ScalarField& scalar, VectorField& result) const {
 }
 
 void Surface::divergence(const VectorField& vector, ScalarField& result) const {
+  check_markers(vector, "vector", grid_.size());
   result.resize(grid_.size());
   harmonics_.analysis(vector, work_->coefficients);
   auto theta = work_->theta.leftCols(3);

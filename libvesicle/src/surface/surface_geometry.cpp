@@ -3,18 +3,26 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "check.h"
+#include "harmonics/check_grid.h"
 #include "surface/columns.h"
 
 namespace vesiflow::vesicle {
 
-SurfaceGeometry::SurfaceGeometry(const SphereGrid& grid) {
+SurfaceGeometry::SurfaceGeometry(const SphereGrid& grid) : grid_(grid) {
   for (VectorField* field : {&theta_, &phi_, &theta_theta_, &theta_phi_, &phi_phi_, &dual_theta_, &dual_phi_, &normal_})
     field->resize(grid.size(), 3);
   for (ScalarField* field : {&area_element_, &mean_curvature_, &gaussian_curvature_}) field->resize(grid.size());
 }
 
+void SurfaceGeometry::check_arguments(const SphericalHarmonics& harmonics, const Coefficients& positions) const {
+  check_grid(harmonics.grid(), "harmonics", grid_);
+  check_argument(positions.fields() == 3, "fields of the positions", positions.fields(), "3");
+}
+
 void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coefficients& positions,
                              GeometryDetail detail) {
+  check_arguments(harmonics, positions);
   const bool with_curvature = detail == GeometryDetail::curvature;
   has_curvature_ = false;
   if (with_curvature)
@@ -29,6 +37,7 @@ void SurfaceGeometry::update(const SphericalHarmonics& harmonics, const Coeffici
 }
 
 void SurfaceGeometry::add_curvature(const SphericalHarmonics& harmonics, const Coefficients& positions) {
+  check_arguments(harmonics, positions);
   harmonics.second_derivatives(positions, theta_theta_, theta_phi_, phi_phi_);
   update_second_form();
   has_curvature_ = true;
