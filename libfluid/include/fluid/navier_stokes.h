@@ -95,7 +95,7 @@ class NavierStokes {
   // out of range, wall data with a net flux (WallVelocity), a pressure solver that is not available, and a grid
   // that would take more memory than the machine has. The velocity solver is made, or refused, in the first step.
   NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary = nullptr,
-               bool steady_boundary = true);
+               WallMotion motion = WallMotion::steady);
   ~NavierStokes();
   NavierStokes(NavierStokes&&) noexcept;
   NavierStokes& operator=(NavierStokes&&) noexcept;

@@ -3,11 +3,17 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <variant>
 
 #include "fluid/elliptic_solver.h"
 
 namespace vesiflow::fluid {
+
+// "pcg" with the name of its preconditioner.
+inline std::string pcg_name(const std::string& preconditioner) {
+  return std::string(name(SolverKind::pcg)) + "+" + preconditioner;
+}
 
 using Preconditioner = decltype(PcgOptions::preconditioner);
 

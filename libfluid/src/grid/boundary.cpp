@@ -51,8 +51,8 @@ void reflect_into_ghosts(const View& field, int axis, bool normal) {
 
 }  // namespace
 
-WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool steady)
-    : grid_(grid), velocity_(std::move(velocity)), steady_(steady) {
+WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, WallMotion motion)
+    : grid_(grid), velocity_(std::move(velocity)), motion_(motion) {
   if (!velocity_ && grid.has_walls()) {
     throw std::invalid_argument("boundary: the velocity of the walls is an empty function");
   }
@@ -66,12 +66,12 @@ WallVelocity::WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool ste
       }
     }
   }
-  if (!steady) spare_planes_ = planes_;
+  if (!steady()) spare_planes_ = planes_;
   sample_all();
 }
 
 void WallVelocity::evaluate(double time) {
-  if (steady_ || time == time_) return;
+  if (steady() || time == time_) return;
   const double time_before = std::exchange(time_, time);
   const double flux_before = net_flux_;
   std::swap(planes_, spare_planes_);

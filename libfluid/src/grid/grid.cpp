@@ -8,9 +8,8 @@
 
 namespace vesiflow::fluid {
 
-Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3>& cells_,
-           const std::array<bool, 3>& periodic_, const std::array<bool, 3>& mirror_)
-    : lower(lower_), upper(upper_), cells(cells_), periodic(periodic_), mirror(mirror_) {
+Grid::Grid(const Vector3& lower_, const Vector3& upper_, const std::array<int, 3>& cells_, const AxisEnds& ends)
+    : lower(lower_), upper(upper_), cells(cells_), periodic(ends.periodic), mirror(ends.mirror) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(lower[axis]) || !std::isfinite(upper[axis]) || !(upper[axis] > lower[axis])) {
       throw std::invalid_argument(message("grid: axis ", axis, " runs from ", lower[axis], " to ", upper[axis],

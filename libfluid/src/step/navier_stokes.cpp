@@ -7,8 +7,8 @@
 namespace vesiflow::fluid {
 
 NavierStokes::NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary,
-                           bool steady_boundary)
-    : stepper_(std::make_unique<Stepper>(grid, parameters, std::move(boundary), steady_boundary)) {}
+                           WallMotion motion)
+    : stepper_(std::make_unique<Stepper>(grid, parameters, std::move(boundary), motion)) {}
 
 NavierStokes::~NavierStokes() = default;
 NavierStokes::NavierStokes(NavierStokes&&) noexcept = default;
@@ -101,7 +101,7 @@ std::size_t NavierStokes::estimate_memory(const Grid& grid, const FluidParameter
   std::size_t bytes = 2 * field_bytes(Centring::cell);
   for (const Centring centring : face_centrings) bytes += vectors * field_bytes(centring);
   bytes += estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver);
-  if (stokes) return bytes + StokesSolver::estimate_memory(grid, variable);
+  if (stokes) return bytes + StokesSolver::estimate_memory(grid, parameters.viscosity);
   return bytes + estimate_solver_memory(momentum_problem(grid, parameters, 1.0, 1.0), parameters.velocity_solver);
 }
 

@@ -124,10 +124,10 @@ EllipticProblem pressure_problem(const Grid& grid) {
   return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
 }
 
-Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary, bool steady_boundary)
+Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary, WallMotion motion)
     : grid(grid_),
       parameters(checked(grid_, parameters_)),
-      walls(grid_, std::move(boundary), steady_boundary),
+      walls(grid_, std::move(boundary), motion),
       velocity(grid_),
       previous(grid_),
       force(grid_),

@@ -18,7 +18,7 @@ EllipticProblem pressure_problem(const Grid& grid);
 
 class Stepper {
  public:
-  Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary, bool steady_boundary);
+  Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary, WallMotion motion);
 
   void set_velocity(const std::function<Vector3(const Vector3&)>& function);
   void start_from(const FaceVector& velocity, const Field<Cell>& pressure);

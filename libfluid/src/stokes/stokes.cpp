@@ -188,13 +188,13 @@ const StokesOptions& StokesSolver::options() const {
 
 // Arrays of one number per cell: residual_, correction_ (4 each), lift_ and chi_; two saddle vectors, or four, A p and the
 // multigrid's four vectors on all levels.
-std::size_t StokesSolver::estimate_memory(const Grid& grid, bool variable_viscosity) {
-  const double fields = 12.0 + (variable_viscosity ? 19.0 + 12.0 * 8.0 / 7.0 : 8.0);
+std::size_t StokesSolver::estimate_memory(const Grid& grid, const Viscosity& mu) {
+  const double fields = 12.0 + (!mu.is_constant() ? 19.0 + 12.0 * 8.0 / 7.0 : 8.0);
   double points = 1.0;
   for (const int cells : grid.cells) points *= cells + 2.5;  // ghosts, and the last faces of one component in three
   std::size_t bytes = static_cast<std::size_t>(sizeof(double) * fields * points);
   bytes += estimate_solver_memory(pressure_problem(grid), FftOptions{});
-  if (variable_viscosity) return bytes;
+  if (!mu.is_constant()) return bytes;
   return bytes +
          estimate_solver_memory(EllipticProblem::velocity(grid, EllipticForm::laplacian, 0.0, 1.0), FftOptions{});
 }

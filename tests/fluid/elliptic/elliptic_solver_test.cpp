@@ -77,6 +77,16 @@ TEST(FftSolver, KeepsItsPlansWhenTheThreadCountIsRaised) {
   EXPECT_LT(relative_residual(problem, rhs.points(), x.points()), 1e-13);
 }
 
+TEST(SolverNames, AreThoseOfTheirDefaultOptions) {
+  EXPECT_EQ(name(default_options(SolverKind::automatic)), "auto");
+  EXPECT_EQ(name(default_options(SolverKind::fft)), "fft");
+  EXPECT_EQ(name(default_options(SolverKind::cholmod)), "cholmod");
+  EXPECT_EQ(name(default_options(SolverKind::pcg)), "pcg+fft");
+  EXPECT_EQ(name(PcgOptions{.preconditioner = CholmodOptions{}}), "pcg+cholmod");
+  for (const SolverKind kind : {SolverKind::automatic, SolverKind::fft, SolverKind::cholmod, SolverKind::pcg})
+    EXPECT_EQ(name(default_options(kind)).find(name(kind)), 0U) << name(kind);
+}
+
 #ifndef VESIFLOW_WITH_CHOLMOD
 TEST(CholmodSolver, IsRefusedByABuildWithoutItNamingTheOption) {
   const EllipticProblem problem(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0);
@@ -92,7 +102,7 @@ Viscosity sphere(double ratio) {
 TEST(ChooseSolver, TakesFastTransformsWhereTheyAreExact) {
   for (const EllipticProblem& problem : {EllipticProblem(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0),
                                          EllipticProblem::velocity(grid, EllipticForm::laplacian, 1.0, 2.0)}) {
-    const SolverChoice choice = choose_solver(problem, {});
+    const ChosenSolver choice = choose_solver(problem, {});
     EXPECT_TRUE(std::holds_alternative<FftOptions>(choice.options));
     EXPECT_THAT(choice.reason, HasSubstr("constant coefficients"));
     EXPECT_EQ(make_elliptic_solver(problem, AutoOptions{})->name(), "fft");
@@ -101,7 +111,7 @@ TEST(ChooseSolver, TakesFastTransformsWhereTheyAreExact) {
 
 TEST(ChooseSolver, TakesConjugateGradientsForModerateRatiosWithTheToleranceGiven) {
   const auto problem = EllipticProblem::velocity(grid, EllipticForm::stress, 1.0, sphere(20.0));
-  const SolverChoice choice = choose_solver(problem, {.tolerance = 1e-6});
+  const ChosenSolver choice = choose_solver(problem, {.tolerance = 1e-6});
   const auto* pcg = std::get_if<PcgOptions>(&choice.options);
   ASSERT_NE(pcg, nullptr);
   EXPECT_EQ(pcg->tolerance, 1e-6);

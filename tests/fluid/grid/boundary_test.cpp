@@ -45,7 +45,7 @@ double ghost_error(int component, const Field<Centring>& field) {
 }
 
 TEST(WallVelocity, ContinuesALinearFlowExactlyIntoAllGhosts) {
-  const WallVelocity walls(grid, linear_flow, true);
+  const WallVelocity walls(grid, linear_flow);
   FaceVector u(grid);
   sample_inside(0, u.x);
   sample_inside(1, u.y);
@@ -60,7 +60,7 @@ TEST(WallVelocity, ContinuesALinearFlowExactlyIntoAllGhosts) {
 // The Laplacian of a linear flow is zero: the walls' part cancels what the homogeneous operator leaves.
 TEST(WallVelocity, DiffusionFromTheWallsCompletesTheHomogeneousLaplacian) {
   const double mu = 1.75;
-  const WallVelocity walls(grid, linear_flow, true);
+  const WallVelocity walls(grid, linear_flow);
   FaceVector u(grid);
   sample_inside(0, u.x);
   sample_inside(1, u.y);
@@ -78,16 +78,10 @@ TEST(WallVelocity, DiffusionFromTheWallsCompletesTheHomogeneousLaplacian) {
 
 TEST(WallVelocity, RefusesANetFluxAndSaysHowMuch) {
   // u = (x, 0, 0) expands the box of volume 12.
-  EXPECT_THAT(
-      [] {
-        WallVelocity(
-            grid,
-            [](const Vector3& r, double) {
-              return Vector3{r[0], 0, 0};
-            },
-            true);
-      },
-      ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("net outward flux"), HasSubstr("12"))));
+  EXPECT_THAT([] { WallVelocity(grid, [](const Vector3& r, double) {
+                     return Vector3{r[0], 0, 0};
+                   }); },
+              ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("net outward flux"), HasSubstr("12"))));
 }
 
 TEST(WallVelocity, SpreadsTheSamplingErrorOfBalancedData) {
@@ -95,7 +89,7 @@ TEST(WallVelocity, SpreadsTheSamplingErrorOfBalancedData) {
   const auto flow = [](const Vector3& r, double) {
     return Vector3{r[0] > 0 ? 1.5 * r[1] * r[1] / 1.125 : 1.0, 0.0, 0.0};
   };
-  const WallVelocity walls(grid, flow, true);
+  const WallVelocity walls(grid, flow);
   EXPECT_GT(std::abs(walls.net_flux()), 1e-3);
   FaceVector u(grid);
   walls.set_normal_faces(u);
@@ -108,23 +102,19 @@ TEST(WallVelocity, SpreadsTheSamplingErrorOfBalancedData) {
 
 TEST(WallVelocity, RefusesValuesThatAreNotFinite) {
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(
-      [&] {
-        WallVelocity(
-            grid,
-            [=](const Vector3&, double) {
-              return Vector3{0, infinity, 0};
-            },
-            true);
-      },
-      ThrowsMessage<std::invalid_argument>(HasSubstr("component 1 is inf")));
+  EXPECT_THAT([&] { WallVelocity(grid, [=](const Vector3&, double) {
+                      return Vector3{0, infinity, 0};
+                    }); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("component 1 is inf")));
 }
 
 TEST(WallVelocity, SamplesSteadyDataOnceAndOtherDataAtEachNewTime) {
-  for (const bool steady : {true, false}) {
+  for (const WallMotion motion : {WallMotion::steady, WallMotion::unsteady}) {
+    const bool steady = motion == WallMotion::steady;
     int calls = 0;
     WallVelocity walls(
-        grid, [&](const Vector3&, double) { return ++calls, Vector3{}; }, steady);
+        grid, [&](const Vector3&, double) { return ++calls, Vector3{}; }, motion);
+    EXPECT_EQ(walls.steady(), steady);
     const int once = calls;
     walls.evaluate(0.5);
     EXPECT_EQ(calls, steady ? once : 2 * once);

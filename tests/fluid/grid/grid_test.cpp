@@ -41,18 +41,18 @@ TEST(Grid, RefusesTooFewCellsAndNamesTheLeast) {
 }
 
 TEST(Grid, HasWallsWhereItIsNeitherPeriodicNorMirrored) {
-  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {true, false, false}, {false, false, true});
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {true, false, false}, .mirror = {false, false, true}});
   EXPECT_FALSE(grid.has_wall(0, 0) || grid.has_wall(0, 1));
   EXPECT_TRUE(grid.has_wall(1, 0) && grid.has_wall(1, 1));
   EXPECT_FALSE(grid.has_wall(2, 0));
   EXPECT_TRUE(grid.has_wall(2, 1));
-  EXPECT_FALSE(grid == Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {true, false, false}));
+  EXPECT_FALSE(grid == Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {true, false, false}}));
 }
 
 TEST(Grid, RefusesAPeriodicMirrorAndNamesTheAxis) {
   EXPECT_THAT(
       [] {
-        Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {false, false, true}, {false, false, true});
+        Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {false, false, true}, .mirror = {false, false, true}});
       },
       ThrowsMessage<std::invalid_argument>(HasSubstr("axis 2 is periodic and has a mirror")));
 }

@@ -34,7 +34,7 @@ class Mirrors : public testing::TestWithParam<int> {
   const Grid grid = part_of_box(GetParam());
   const SymmetricFunctions functions{grid};
   const BoundaryVelocity wall_velocity = [this](const Vector3& r, double t) { return functions.wall_velocity(r, t); };
-  const WallVelocity walls{grid, wall_velocity, true};
+  const WallVelocity walls{grid, wall_velocity};
 
   // Random inside. (What is on walls and mirrors does not stay.)
   FaceVector velocity(unsigned seed) const {
@@ -54,7 +54,7 @@ class Mirrors : public testing::TestWithParam<int> {
 
 // The whole box has its own walls, which know of no mirror.
 TEST_P(Mirrors, WallsAndGhostsAreThoseOfTheWholeBox) {
-  const WallVelocity whole_walls(whole_box(grid), wall_velocity, true);
+  const WallVelocity whole_walls(whole_box(grid), wall_velocity);
   const FaceVector u = velocity(1);
   FaceVector whole = unfolded(u);
   whole_walls.set_normal_faces(whole);
@@ -178,8 +178,7 @@ TEST_P(Mirrors, ConditionsAreNeumannForEvenAndDirichletForOddComponents) {
 }
 
 TEST_P(Mirrors, GradientAndDivergenceAreAdjointAndConvectionDoesNoWork) {
-  const WallVelocity at_rest(
-      grid, [](const Vector3&, double) { return Vector3{}; }, true);
+  const WallVelocity at_rest(grid, [](const Vector3&, double) { return Vector3{}; });
   FaceVector u = test::random_velocity(grid, 7);
   at_rest.set_normal_faces(u);
   at_rest.fill_ghosts(u);
@@ -204,7 +203,7 @@ TEST_P(Mirrors, StokesFlowIsThatOfTheWholeBox) {
       });
     }
   }
-  const WallVelocity whole_walls(whole_box(grid), wall_velocity, true);
+  const WallVelocity whole_walls(whole_box(grid), wall_velocity);
   const auto mu = test::symmetric_viscosity(grid, 5.0);
   for (const bool constant : {true, false}) {
     constexpr double tolerance = 1e-11;
@@ -229,27 +228,16 @@ TEST_P(Mirrors, StokesFlowIsThatOfTheWholeBox) {
 INSTANTIATE_TEST_SUITE_P(AllMasks, Mirrors, testing::Range(1, 8));
 
 TEST(MirrorOfWalls, RefusesAVelocityThroughThePlane) {
-  EXPECT_THAT(
-      [] {
-        WallVelocity(
-            part_of_box(2),
-            [](const Vector3&, double) {
-              return Vector3{0, 0.25, 0};
-            },
-            true);
-      },
-      ThrowsMessage<std::invalid_argument>(
-          AllOf(HasSubstr("velocity component 1 of the walls is 0.25"), HasSubstr("on the mirror of axis 1"))));
+  EXPECT_THAT([] { WallVelocity(part_of_box(2), [](const Vector3&, double) {
+                     return Vector3{0, 0.25, 0};
+                   }); },
+              ThrowsMessage<std::invalid_argument>(
+                  AllOf(HasSubstr("velocity component 1 of the walls is 0.25"), HasSubstr("on the mirror of axis 1"))));
 }
 
 TEST(MirrorOfWalls, TakesRoundOffOnThePlaneForZero) {
   const Grid grid = part_of_box(2);
-  const WallVelocity walls(
-      grid,
-      [](const Vector3& r, double) {
-        return Vector3{1, 1e-15 * r[2], 0};
-      },
-      true);
+  const WallVelocity walls(grid, [](const Vector3& r, double) { return Vector3{1, 1e-15 * r[2], 0}; });
   FaceVector u(grid);
   walls.set_normal_faces(u);
   walls.fill_ghosts(u);
@@ -259,17 +247,11 @@ TEST(MirrorOfWalls, TakesRoundOffOnThePlaneForZero) {
 
 TEST(MirrorOfWalls, CountsTheFluxThroughWallsAlone) {
   // Out through the upper wall of x, where the lower end is a mirror.
-  EXPECT_THAT(
-      [] {
-        WallVelocity(
-            part_of_box(1),
-            [](const Vector3& r, double) {
-              return Vector3{r[0], 0, 0};
-            },
-            true);
-      },
-      // 1.2 x 1.7 x 1.7
-      ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("net outward flux"), HasSubstr("3.468"))));
+  EXPECT_THAT([] { WallVelocity(part_of_box(1), [](const Vector3& r, double) {
+                     return Vector3{r[0], 0, 0};
+                   }); },
+              // 1.2 x 1.7 x 1.7
+              ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("net outward flux"), HasSubstr("3.468"))));
 }
 
 }  // namespace

@@ -27,8 +27,7 @@ std::vector<Grid> grids_with_all_boundaries() {
 // Random, zero on walls, ghosts set.
 FaceVector random_flow(const Grid& grid, unsigned seed) {
   FaceVector u = test::random_velocity(grid, seed);
-  const WallVelocity walls(
-      grid, [](const Vector3&, double) { return Vector3{}; }, true);
+  const WallVelocity walls(grid, [](const Vector3&, double) { return Vector3{}; });
   walls.set_normal_faces(u);
   walls.fill_ghosts(u);
   return u;
@@ -72,8 +71,7 @@ TEST(Operators, ConvectionOfALinearFlowIsExact) {
     return product;
   };
   FaceVector u(grid);
-  const WallVelocity walls(
-      grid, [&](const Vector3& r, double) { return multiply(r); }, true);
+  const WallVelocity walls(grid, [&](const Vector3& r, double) { return multiply(r); });
   const auto fields = u.points();
   for (int c = 0; c < 3; ++c) {
     test::for_each_point(fields[c].extent, [&](int i, int j, int k) {
@@ -105,8 +103,7 @@ TEST(Operators, FieldsOfDifferentGridsAreRefused) {
   EXPECT_THROW(divergence(faces, cells), std::invalid_argument);
   EXPECT_THROW(max_divergence(mixed), std::invalid_argument);
   EXPECT_THROW(convection(faces, coarse_faces), std::invalid_argument);
-  const WallVelocity walls(
-      grid, [](const Vector3&, double) { return Vector3{}; }, true);
+  const WallVelocity walls(grid, [](const Vector3&, double) { return Vector3{}; });
   EXPECT_THROW(walls.set_normal_faces(coarse_faces), std::invalid_argument);
   EXPECT_THROW(walls.fill_ghosts(mixed), std::invalid_argument);
   EXPECT_THROW(walls.add_diffusion(1.0, coarse_faces), std::invalid_argument);

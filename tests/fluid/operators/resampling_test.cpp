@@ -65,7 +65,7 @@ TEST(Resampling, IsExactForLinearFieldsAndLeavesWhatIsOutside) {
 }
 
 TEST(Resampling, OnTheSameGridChangesNothing) {
-  const Grid grid({-3, -1, 0}, {3, 1, 0.7}, {11, 9, 7}, {true, false, false});
+  const Grid grid({-3, -1, 0}, {3, 1, 0.7}, {11, 9, 7}, {.periodic = {true, false, false}});
   FaceVector u(grid), v(grid);
   double value = 0.0;
   for (View component : u.points())

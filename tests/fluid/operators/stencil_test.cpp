@@ -191,7 +191,8 @@ struct Smooth {
 
 double operator_error(EllipticForm form, int cells) {
   const double length = 2.0 * std::numbers::pi;
-  const Grid grid({0, 0, 0}, {length, length, length}, {cells, cells * 7 / 6, cells * 11 / 12}, {true, true, true});
+  const Grid grid({0, 0, 0}, {length, length, length}, {cells, cells * 7 / 6, cells * 11 / 12},
+                  {.periodic = {true, true, true}});
   const auto problem = EllipticProblem::velocity(grid, form, 0.0, Viscosity(sample_viscosity(grid, Smooth::mu)));
   const Numbers u(problem);
   const Numbers result(problem);

@@ -16,7 +16,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const Grid grid({0, 0, 0}, {1, 2, 3}, {5, 6, 7}, {false, true, false});
+const Grid grid({0, 0, 0}, {1, 2, 3}, {5, 6, 7}, {.periodic = {false, true, false}});
 
 // Numbers each cell.
 double label(int i, int j, int k) {

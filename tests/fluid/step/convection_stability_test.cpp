@@ -12,7 +12,7 @@ namespace {
 
 // Shear waves v(x) in a uniform stream, of all lengths that the periodic grid has: largest |v| after so many steps.
 double after(int steps, double speed, double reynolds_number, double dt) {
-  const Grid grid({0, 0, 0}, {4, 1, 1}, {64, 8, 8}, {true, true, true});
+  const Grid grid({0, 0, 0}, {4, 1, 1}, {64, 8, 8}, {.periodic = {true, true, true}});
   FluidParameters parameters;
   parameters.reynolds_number = reynolds_number;
   NavierStokes fluid(grid, parameters);

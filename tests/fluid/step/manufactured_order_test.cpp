@@ -40,7 +40,8 @@ NavierStokes start(const ManufacturedFlow& flow, ViscousTreatment treatment, int
     parameters.viscosity = sample_viscosity(grid, [&](const Vector3& r) { return flow.viscosity(r); });
   }
   NavierStokes fluid(
-      grid, parameters, [flow](const Vector3& r, double t) { return flow.velocity(r, t); }, flow.steady);
+      grid, parameters, [flow](const Vector3& r, double t) { return flow.velocity(r, t); },
+      flow.steady ? WallMotion::steady : WallMotion::unsteady);
   FaceVector now(grid), before(grid);
   test::sample_faces(now, [&](const Vector3& r) { return flow.velocity(r, 0.0); });
   test::sample_faces(before, [&](const Vector3& r) { return flow.velocity(r, -dt); });

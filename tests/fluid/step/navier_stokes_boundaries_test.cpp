@@ -44,7 +44,7 @@ TEST(NavierStokes, ProjectsARandomVelocityToRoundOffWithEveryMixOfBoundaries) {
 }
 
 TEST(NavierStokes, PreservesShearFlowBetweenTwoWalls) {
-  const Grid grid({0, -1, 0}, {1, 2, 5}, {7, 11, 13}, {true, true, false});
+  const Grid grid({0, -1, 0}, {1, 2, 5}, {7, 11, 13}, {.periodic = {true, true, false}});
   const auto shear = [](const Vector3& r, double) { return Vector3{r[2], 0.0, 0.0}; };
   NavierStokes fluid(grid, {}, shear);
   fluid.set_velocity([&](const Vector3& r) { return shear(r, 0.0); });
@@ -69,7 +69,7 @@ struct TaylorGreen {
 
 TEST(NavierStokes, ConvergesToTheTaylorGreenVortexInAPeriodicBox) {
   const auto errors = [](int n) {
-    const Grid grid({0, 0, 0}, {2, 1, 1}, {n, n + n / 4, 4}, {true, true, true});
+    const Grid grid({0, 0, 0}, {2, 1, 1}, {n, n + n / 4, 4}, {.periodic = {true, true, true}});
     const TaylorGreen flow{std::numbers::pi, 2 * std::numbers::pi, 10.0};
     FluidParameters parameters;
     parameters.reynolds_number = flow.reynolds_number;
@@ -86,7 +86,7 @@ TEST(NavierStokes, ConvergesToTheTaylorGreenVortexInAPeriodicBox) {
 
 // A uniform force in a periodic box only accelerates: Re du/dt = f.
 TEST(NavierStokes, AcceleratesAPeriodicBoxAsAWhole) {
-  const Grid grid({0, 0, 0}, {1, 2, 3}, {5, 6, 7}, {true, true, true});
+  const Grid grid({0, 0, 0}, {1, 2, 3}, {5, 6, 7}, {.periodic = {true, true, true}});
   FluidParameters parameters;
   parameters.reynolds_number = 2.0;
   NavierStokes fluid(grid, parameters);
@@ -99,7 +99,7 @@ TEST(NavierStokes, AcceleratesAPeriodicBoxAsAWhole) {
 
 // A uniform force is a field of force that is the same everywhere, whatever the inertia.
 TEST(NavierStokes, TakesAUniformForceAsAFieldOfIt) {
-  const Grid grid({0, 0, 0}, {1, 2, 3}, {6, 7, 8}, {true, false, false});
+  const Grid grid({0, 0, 0}, {1, 2, 3}, {6, 7, 8}, {.periodic = {true, false, false}});
   for (const Inertia inertia : {Inertia::full, Inertia::none}) {
     FluidParameters parameters;
     parameters.inertia = inertia;
@@ -121,7 +121,7 @@ TEST(NavierStokes, TakesAUniformForceAsAFieldOfIt) {
 
 // What happens does not depend on where a periodic box is cut: the force moved by one cell moves the flow.
 TEST(NavierStokes, FollowsATranslationAlongAPeriodicAxis) {
-  const Grid grid({0, 0, 0}, {1, 2, 3}, {6, 7, 8}, {true, false, true});
+  const Grid grid({0, 0, 0}, {1, 2, 3}, {6, 7, 8}, {.periodic = {true, false, true}});
   const auto run = [&](int shift) {
     NavierStokes fluid(grid, {}, no_slip);
     const auto f = fluid.force().unknowns();
@@ -143,7 +143,7 @@ TEST(NavierStokes, FollowsATranslationAlongAPeriodicAxis) {
 }
 
 TEST(WallVelocity, RefusesAFunctionThatDiffersAtTheEndsOfAPeriodicAxis) {
-  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {false, false, true});
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {false, false, true}});
   EXPECT_THAT(([&] { NavierStokes(grid, {}, [](const Vector3& r, double) {
                        return Vector3{r[2], 0.0, 0.0};
                      }); }),
@@ -153,14 +153,11 @@ TEST(WallVelocity, RefusesAFunctionThatDiffersAtTheEndsOfAPeriodicAxis) {
 
 // Round-off is that of the greatest velocity, whatever its unit: a small component may differ by that much, and by no more.
 TEST(WallVelocity, AllowsRoundOffOfFastWallsAtTheEndsOfAPeriodicAxis) {
-  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {false, false, true});
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {false, false, true}});
   const auto walls = [&](double difference) {
-    return WallVelocity(
-        grid,
-        [=](const Vector3& r, double) {
-          return Vector3{r[2] > 0.5 ? difference : 0.0, 1e9, 0.0};
-        },
-        true);
+    return WallVelocity(grid, [=](const Vector3& r, double) {
+      return Vector3{r[2] > 0.5 ? difference : 0.0, 1e9, 0.0};
+    });
   };
   EXPECT_NO_THROW(walls(1e-3));
   EXPECT_THROW(walls(1.0), std::invalid_argument);

@@ -29,8 +29,8 @@ void push(NavierStokes& fluid) {
 TEST(AfterAFailure, WallsThatWereRefusedAreRefusedAgainAndTheFlowGoesOn) {
   bool leaky = false;
   const auto walls = [&](const Vector3& r, double t) { return Vector3{leaky ? r[0] : 0.0, std::sin(t) * r[2], 0.0}; };
-  NavierStokes fluid(grid, {}, walls, false);
-  NavierStokes other(grid, {}, walls, false);
+  NavierStokes fluid(grid, {}, walls, WallMotion::unsteady);
+  NavierStokes other(grid, {}, walls, WallMotion::unsteady);
   for (NavierStokes* one : {&fluid, &other}) {
     push(*one);
     one->step(0.1);

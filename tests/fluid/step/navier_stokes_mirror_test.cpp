@@ -105,8 +105,8 @@ TEST_P(MirroredFlow, IsThePartOfTheFlowInTheWholeBox) {
   }
   here.velocity_solver = exact_solver(here);
   there.velocity_solver = exact_solver(there);
-  NavierStokes in_part(grid, here, walls_of(functions), false);
-  NavierStokes in_whole(whole_box(grid), there, walls_of(functions), false);
+  NavierStokes in_part(grid, here, walls_of(functions), WallMotion::unsteady);
+  NavierStokes in_whole(whole_box(grid), there, walls_of(functions), WallMotion::unsteady);
   run(in_part, functions);
   run(in_whole, functions);
   ASSERT_GT(test::max_abs(in_part.velocity().y.points()), 0.3);
@@ -143,8 +143,8 @@ TEST(NavierStokesWithMirrors, FlowWithoutInertiaIsThatOfTheWholeBox) {
       here.viscosity = mu;
       there.viscosity = unfolded(mu);
     }
-    NavierStokes in_part(grid, here, walls_of(functions), false);
-    NavierStokes in_whole(whole_box(grid), there, walls_of(functions), false);
+    NavierStokes in_part(grid, here, walls_of(functions), WallMotion::unsteady);
+    NavierStokes in_whole(whole_box(grid), there, walls_of(functions), WallMotion::unsteady);
     run(in_part, functions);
     run(in_whole, functions);
     EXPECT_LT(test::difference_everywhere(in_part.velocity(), in_whole.velocity()), 1e-10);
@@ -194,7 +194,7 @@ TEST(NavierStokesWithMirrors, HasTheSameBitsForEveryNumberOfThreads) {
       parameters.viscosity = test::symmetric_viscosity(grid, 5.0);
       parameters.viscous_treatment = treatment;
       parameters.velocity_solver = AutoOptions{.tolerance = 1e-6};
-      NavierStokes flow(grid, parameters, walls_of(functions), false);
+      NavierStokes flow(grid, parameters, walls_of(functions), WallMotion::unsteady);
       flow.step(0.02);
       flow.step(0.01);
       return flow;
@@ -216,7 +216,7 @@ TEST(NavierStokesWithMirrors, AllocatesNothingInAWarmedUpStep) {
     const SymmetricFunctions functions(grid);
     FluidParameters parameters;
     if (variable) parameters.viscosity = test::symmetric_viscosity(grid, 5.0);
-    NavierStokes flow(grid, parameters, walls_of(functions), false);
+    NavierStokes flow(grid, parameters, walls_of(functions), WallMotion::unsteady);
     flow.step(0.02);
     flow.step(0.02);
     const long before = vesiflow::test::allocation_count();
@@ -229,9 +229,9 @@ TEST(NavierStokesWithMirrors, AllocatesNothingInAWarmedUpStep) {
 TEST(NavierStokesWithMirrors, ContinuesARestoredStateBitForBit) {
   const Grid grid = part_of_box(6);
   const SymmetricFunctions functions(grid);
-  NavierStokes flow(grid, {}, walls_of(functions), false);
+  NavierStokes flow(grid, {}, walls_of(functions), WallMotion::unsteady);
   for (int step = 0; step < 3; ++step) flow.step(0.02);
-  NavierStokes other(grid, {}, walls_of(functions), false);
+  NavierStokes other(grid, {}, walls_of(functions), WallMotion::unsteady);
   other.restore(flow.velocity(), flow.previous_velocity(), flow.pressure(), flow.clock());
   flow.step(0.02);
   other.step(0.02);

@@ -105,7 +105,7 @@ Errors run(int cells, double reynolds_number) {
   FluidParameters parameters;
   parameters.reynolds_number = reynolds_number;
   NavierStokes fluid(
-      grid, parameters, [&](const Vector3& r, double t) { return flow.velocity(r, t); }, false);
+      grid, parameters, [&](const Vector3& r, double t) { return flow.velocity(r, t); }, WallMotion::unsteady);
   const double dt = 0.0025;
   fluid.restore(sample(flow, grid, 0.0), sample(flow, grid, -dt), sample_pressure(flow, grid, 0.0), {0.0, -dt, dt, 1});
   for (int k = 0; k < 60; ++k) fluid.step(dt);
@@ -147,7 +147,7 @@ FaceVector run_from_rest(const FluidParameters& parameters, const std::vector<do
         for (double& component : u) component *= ramp(t);
         return u;
       },
-      false);
+      WallMotion::unsteady);
   for (int n = 0; n < repetitions; ++n) {
     for (const double dt : pattern) {
       // The scheme takes the force of the new time.

@@ -27,7 +27,7 @@ void set_random_force(NavierStokes& fluid, unsigned seed) {
 }
 
 NavierStokes started(const FluidParameters& parameters) {
-  NavierStokes fluid(grid, parameters, stirring, false);
+  NavierStokes fluid(grid, parameters, stirring, WallMotion::unsteady);
   fluid.set_velocity(swirl);
   set_random_force(fluid, 12);
   return fluid;

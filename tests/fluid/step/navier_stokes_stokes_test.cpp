@@ -44,7 +44,7 @@ TEST(WithoutInertia, FollowsWallsAndForcesWithoutMemory) {
   FluidParameters parameters;
   parameters.inertia = Inertia::none;
   const auto walls = [](const Vector3& r, double t) { return Vector3{r[2] * std::cos(t), 0.0, 0.0}; };
-  NavierStokes fluid(grid, parameters, walls, false);
+  NavierStokes fluid(grid, parameters, walls, WallMotion::unsteady);
   for (int k = 0; k < 3; ++k) fluid.step(0.4);
   fluid.step(1.1);
   test::for_each_point(fluid.velocity().x.extent(), [&](int i, int j, int k) {
@@ -62,9 +62,9 @@ TEST(WithoutInertia, RestoredRunContinuesBitForBitAndStepsAllocateNothing) {
     if (variable)
       parameters.viscosity = sample_viscosity(grid, [](const Vector3& r) { return 2.0 + std::sin(3 * r[0]); });
     const auto walls = [](const Vector3& r, double t) { return Vector3{std::sin(r[2] + t), 0.0, 0.0}; };
-    NavierStokes fluid(grid, parameters, walls, false);
+    NavierStokes fluid(grid, parameters, walls, WallMotion::unsteady);
     for (int k = 0; k < 3; ++k) fluid.step(0.1);
-    NavierStokes restored(grid, parameters, walls, false);
+    NavierStokes restored(grid, parameters, walls, WallMotion::unsteady);
     restored.restore(fluid.velocity(), fluid.previous_velocity(), fluid.pressure(), fluid.clock());
     const long before = vesiflow::test::allocation_count();
     for (int k = 0; k < 2; ++k) fluid.step(0.1);

@@ -106,7 +106,7 @@ TEST(NavierStokes, BalancesAGradientForceByPressure) {
 
 TEST(NavierStokes, VelocityOnTheWallsIsTheDataAtTheTimeOfTheVelocity) {
   const Grid& grid = grids[1];
-  NavierStokes fluid(grid, {}, stirring, false);
+  NavierStokes fluid(grid, {}, stirring, WallMotion::unsteady);
   fluid.step(0.1);
   fluid.step(0.2);
   EXPECT_DOUBLE_EQ(fluid.time(), 0.1 + 0.2);
@@ -140,7 +140,7 @@ TEST(NavierStokes, GivesTheSameBitsForEveryNumberOfThreads) {
   const auto run = [](int threads) {
     const test::ThreadCount count(threads);
     const Grid large({0, -1, 0}, {1, 2, 5}, {27, 26, 29});  // small ones are left to one thread
-    NavierStokes fluid(large, {}, stirring, false);
+    NavierStokes fluid(large, {}, stirring, WallMotion::unsteady);
     fluid.set_velocity(swirl);
     set_random_force(fluid, 12);
     for (int k = 0; k < 4; ++k) fluid.step(0.02);
@@ -162,10 +162,10 @@ TEST(NavierStokes, RestoredRunContinuesBitForBit) {
     }
   };
   for (const int steps_before : {0, 1, 5}) {
-    NavierStokes fluid(grids[1], {}, stirring, false);
+    NavierStokes fluid(grids[1], {}, stirring, WallMotion::unsteady);
     fluid.set_velocity(swirl);
     advance(fluid, steps_before);
-    NavierStokes restored(grids[1], {}, stirring, false);
+    NavierStokes restored(grids[1], {}, stirring, WallMotion::unsteady);
     // Walls and ghosts need not be stored.
     FaceVector velocity = fluid.velocity().clone();
     velocity.y(2, -1, 3) = 77.0;
@@ -184,10 +184,10 @@ TEST(NavierStokes, RestoredRunContinuesBitForBit) {
 #ifdef VESIFLOW_WITH_CHOLMOD
 TEST(NavierStokes, SolversOfEitherKindGiveTheSameFlow) {
   FluidParameters parameters;
-  NavierStokes fft(grids[1], parameters, stirring, false);
+  NavierStokes fft(grids[1], parameters, stirring, WallMotion::unsteady);
   parameters.pressure_solver = CholmodOptions{};
   parameters.velocity_solver = CholmodOptions{};
-  NavierStokes cholmod(grids[1], parameters, stirring, false);
+  NavierStokes cholmod(grids[1], parameters, stirring, WallMotion::unsteady);
   for (NavierStokes* fluid : {&fft, &cholmod}) {
     fluid->set_velocity(swirl);
     for (int k = 0; k < 3; ++k) fluid->step(0.05);

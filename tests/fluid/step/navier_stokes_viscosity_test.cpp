@@ -40,7 +40,7 @@ NavierStokes make(ViscousTreatment treatment, Viscosity viscosity, double reynol
   parameters.reynolds_number = reynolds_number;
   parameters.viscosity = viscosity;
   parameters.viscous_treatment = treatment;
-  return NavierStokes(box, parameters, stirring, false);
+  return NavierStokes(box, parameters, stirring, WallMotion::unsteady);
 }
 
 // A field that is a constant is the constant: in the implicit form up to the grad-div term, which acts on u* alone.
@@ -58,7 +58,7 @@ TEST(VariableViscosity, AUniformFieldIsANumber) {
 
 // With viscosity mu(z), the wall at z = 1 moving along x: mu du/dz is the same everywhere.
 TEST(VariableViscosity, LayeredShearHasConstantStress) {
-  const Grid layers({0, 0, -1}, {1, 1, 1}, {4, 4, 24}, {true, true, false});
+  const Grid layers({0, 0, -1}, {1, 1, 1}, {4, 4, 24}, {.periodic = {true, true, false}});
   for (const ViscousTreatment treatment : treatments) {
     FluidParameters parameters;
     parameters.reynolds_number = 0.1;
@@ -182,7 +182,7 @@ TEST(VariableViscosity, SolverThatCannotIsRefusedByName) {
   parameters.viscosity = sample_viscosity(grid, [](const Vector3& r) { return sphere(r, 5.0, 0.2); });
   parameters.viscous_treatment = ViscousTreatment::implicit;
   parameters.velocity_solver = FftOptions{};
-  NavierStokes fluid(grid, parameters, stirring, false);
+  NavierStokes fluid(grid, parameters, stirring, WallMotion::unsteady);
   EXPECT_THAT([&] { fluid.step(0.02); },
               ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("'fft'"), HasSubstr("'pcg'"))));
 }

@@ -22,12 +22,12 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr std::array<bool, 3> channel{true, true, false};
-constexpr std::array<bool, 3> all_periodic{true, true, true};
+constexpr AxisEnds channel{.periodic = {true, true, false}};
+constexpr AxisEnds all_periodic{.periodic = {true, true, true}};
 const Grid unequal({-1, 0, 0}, {1, 3, 1}, {11, 8, 13});
 
 WallVelocity resting_walls(const Grid& grid) {
-  return {grid, [](const Vector3&, double) { return Vector3{}; }, true};
+  return {grid, [](const Vector3&, double) { return Vector3{}; }};
 }
 
 // 1 outside and the ratio inside a sphere, with an interface two cells thick.
@@ -70,7 +70,7 @@ TEST(Stokes, LinearFlowsAreReproduced) {
   const auto shear = [](const Vector3& r, double) { return Vector3{r[2] + 0.5, 0.0, 0.0}; };
   const auto extension = [](const Vector3& r, double) { return Vector3{r[0], r[1] - 0.3 * r[2], -2 * r[2]}; };
   for (const BoundaryVelocity& flow : {BoundaryVelocity(shear), BoundaryVelocity(extension)}) {
-    const WallVelocity walls(unequal, flow, true);
+    const WallVelocity walls(unequal, flow);
     const Solution solution = solve(unequal, 0.7, FaceVector(unequal), walls);
     EXPECT_TRUE(solution.report.converged);
     double error = 0.0;
@@ -88,8 +88,8 @@ TEST(Stokes, LinearFlowsAreReproduced) {
 
 // Independently of the solver's own report, with the public operators, for walls at rest.
 TEST(Stokes, SolutionSatisfiesTheDiscreteEquations) {
-  for (const auto& periodic : {std::array<bool, 3>{}, channel, std::array<bool, 3>{false, true, false}, all_periodic}) {
-    const Grid grid(unequal.lower, unequal.upper, unequal.cells, periodic);
+  for (const auto& ends : {AxisEnds{}, channel, AxisEnds{.periodic = {false, true, false}}, all_periodic}) {
+    const Grid grid(unequal.lower, unequal.upper, unequal.cells, ends);
     for (const Viscosity& mu : {Viscosity(0.7), drop(grid, 0.05), drop(grid, 20.0)}) {
       FaceVector force = test::random_velocity(grid, 5);
       const Solution solution = solve(grid, mu, force, resting_walls(grid));
@@ -194,12 +194,7 @@ TEST(Stokes, LayeredChannelFlow) {
 
   FaceVector force(grid);
   force.x.fill(f);
-  const WallVelocity walls(
-      grid,
-      [&](const Vector3& r, double) {
-        return Vector3{r[2] < 1.0 ? bottom : top, 0, 0};
-      },
-      true);
+  const WallVelocity walls(grid, [&](const Vector3& r, double) { return Vector3{r[2] < 1.0 ? bottom : top, 0, 0}; });
   const Viscosity viscosity(sample_viscosity(grid, [&](const Vector3& r) { return layer(r[2]); }));
   StokesOptions options;
   options.tolerance = 1e-12;
@@ -216,13 +211,8 @@ TEST(Stokes, LayeredChannelFlow) {
 
 // The two methods have nothing in common but the difference operators.
 TEST(Stokes, ConstantViscosityAsNumberAndAsFieldAgree) {
-  const Grid grid({0, 0, 0}, {1, 2, 1}, {10, 17, 12}, {false, false, true});
-  const WallVelocity walls(
-      grid,
-      [](const Vector3& r, double) {
-        return Vector3{r[1], std::sin(2 * pi * r[0]), 0};
-      },
-      true);
+  const Grid grid({0, 0, 0}, {1, 2, 1}, {10, 17, 12}, {.periodic = {false, false, true}});
+  const WallVelocity walls(grid, [](const Vector3& r, double) { return Vector3{r[1], std::sin(2 * pi * r[0]), 0}; });
   const FaceVector force = test::random_velocity(grid, 8);
   StokesOptions options;
   options.tolerance = 1e-11;
@@ -311,8 +301,7 @@ struct Errors {
 Errors manufactured_errors(double lambda, int cells) {
   const Manufactured flow{lambda};
   const Grid grid({-1.5, -1.5, -1.5}, {1.5, 1.5, 1.5}, {cells, cells, cells});
-  const WallVelocity walls(
-      grid, [&](const Vector3& r, double) { return flow.velocity(r); }, true);
+  const WallVelocity walls(grid, [&](const Vector3& r, double) { return flow.velocity(r); });
   const Viscosity mu = lambda == 1.0
                            ? Viscosity(1.0)
                            : Viscosity(sample_viscosity(grid, [&](const Vector3& r) { return flow.viscosity(r); }));
@@ -360,12 +349,7 @@ TEST(Stokes, IterationsDependLittleOnGridAndViscosities) {
   for (const Pin& pin : pins) {
     const Grid grid({-2, -2, -2}, {2, 2, 2}, {pin.cells, pin.cells, pin.cells});
     const FaceVector force = test::random_velocity(grid, 3);
-    const WallVelocity walls(
-        grid,
-        [](const Vector3& r, double) {
-          return Vector3{r[2], 0, 0};
-        },
-        true);
+    const WallVelocity walls(grid, [](const Vector3& r, double) { return Vector3{r[2], 0, 0}; });
     const Viscosity mu = pin.ratio == 1.0 ? Viscosity(1.0) : drop(grid, pin.ratio);
     const Solution solution = solve(grid, mu, force, walls);
     EXPECT_TRUE(solution.report.converged);
@@ -375,12 +359,7 @@ TEST(Stokes, IterationsDependLittleOnGridAndViscosities) {
 
 TEST(Stokes, InitialGuessSavesIterationsAndLeavesTheResult) {
   const Grid grid({0, 0, 0}, {1, 1, 1}, {12, 13, 11});
-  const WallVelocity walls(
-      grid,
-      [](const Vector3& r, double) {
-        return Vector3{r[2] * r[2], 0, 0};
-      },
-      true);
+  const WallVelocity walls(grid, [](const Vector3& r, double) { return Vector3{r[2] * r[2], 0, 0}; });
   const FaceVector force = test::random_velocity(grid, 21);
   for (const Viscosity& mu : {Viscosity(2.0), drop(grid, 10.0)}) {
     StokesSolver solver(grid);
@@ -399,7 +378,7 @@ TEST(Stokes, InitialGuessSavesIterationsAndLeavesTheResult) {
 }
 
 TEST(Stokes, SameBitsForAnyNumberOfThreads) {
-  const Grid grid({0, 0, 0}, {1, 1, 1}, {27, 28, 29}, {false, true, false});
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {27, 28, 29}, {.periodic = {false, true, false}});
   const FaceVector force = test::random_velocity(grid, 31);
   for (const Viscosity& mu : {Viscosity(2.0), drop(grid, 10.0)}) {
     std::vector<Solution> solutions;
@@ -415,7 +394,7 @@ TEST(Stokes, SameBitsForAnyNumberOfThreads) {
 TEST(Stokes, SolveAllocatesNothing) {
   if (!vesiflow::test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
   const test::ThreadCount two(2);  // with one the OpenMP library itself allocates a team for every loop
-  const Grid grid({0, 0, 0}, {1, 1, 1}, {12, 13, 14}, {false, true, false});
+  const Grid grid({0, 0, 0}, {1, 1, 1}, {12, 13, 14}, {.periodic = {false, true, false}});
   const FaceVector force = test::random_velocity(grid, 31);
   const WallVelocity walls = resting_walls(grid);
   for (const Viscosity& mu : {Viscosity(2.0), drop(grid, 10.0)}) {

@@ -17,7 +17,7 @@ class CholmodSolver final : public EllipticSolver {
   // Throws std::invalid_argument for options out of range, and if the factor is estimated to exceed a limit.
   CholmodSolver(const EllipticProblem& problem, const CholmodOptions& options);
   ~CholmodSolver() override;
-  std::string name() const override { return "cholmod"; }
+  std::string name() const override { return fluid::name(SolverKind::cholmod); }
   int factorisations() const override { return factorisations_; }
 
  private:

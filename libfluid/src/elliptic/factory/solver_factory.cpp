@@ -56,18 +56,32 @@ IterationEstimate estimate_iterations(const EllipticProblem& problem, double rat
 
 }  // namespace
 
+SolverOptions default_options(SolverKind kind) {
+  switch (kind) {
+    case SolverKind::fft:
+      return FftOptions{};
+    case SolverKind::cholmod:
+      return CholmodOptions{};
+    case SolverKind::pcg:
+      return PcgOptions{};
+    case SolverKind::automatic:
+      break;
+  }
+  return AutoOptions{};
+}
+
 std::string name(const SolverOptions& options) {
-  return std::visit(Overloaded{[](const FftOptions&) -> std::string { return "fft"; },
-                               [](const CholmodOptions&) -> std::string { return "cholmod"; },
-                               [](const PcgOptions& pcg) -> std::string {
-                                 return std::holds_alternative<FftOptions>(pcg.preconditioner) ? "pcg+fft"
-                                                                                               : "pcg+cholmod";
+  return std::visit(Overloaded{[](const FftOptions&) -> std::string { return name(SolverKind::fft); },
+                               [](const CholmodOptions&) -> std::string { return name(SolverKind::cholmod); },
+                               [](const PcgOptions& pcg) {
+                                 const bool fft = std::holds_alternative<FftOptions>(pcg.preconditioner);
+                                 return pcg_name(name(fft ? SolverKind::fft : SolverKind::cholmod));
                                },
-                               [](const AutoOptions&) -> std::string { return "auto"; }},
+                               [](const AutoOptions&) -> std::string { return name(SolverKind::automatic); }},
                     options);
 }
 
-SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& options) {
+ChosenSolver choose_solver(const EllipticProblem& problem, const AutoOptions& options) {
   if (problem.form == EllipticForm::laplacian && problem.mu.is_constant()) {
     return {FftOptions{}, "constant coefficients, components by themselves: fast transforms are exact and fastest"};
   }

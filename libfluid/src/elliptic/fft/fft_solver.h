@@ -15,7 +15,7 @@ class FftSolver final : public EllipticSolver {
  public:
   // Throws std::invalid_argument for a variable coefficient or the stress form.
   FftSolver(const EllipticProblem& problem, const FftOptions& options);
-  std::string name() const override { return "fft"; }
+  std::string name() const override { return fluid::name(SolverKind::fft); }
   static std::size_t estimate_memory(const EllipticProblem& problem, const FftOptions& options, int threads);
 
  private:

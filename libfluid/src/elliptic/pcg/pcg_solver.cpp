@@ -47,6 +47,10 @@ PcgSolver::PcgSolver(const EllipticProblem& problem, const PcgOptions& options)
   update(problem);
 }
 
+std::string PcgSolver::name() const {
+  return pcg_name(preconditioner_->name());
+}
+
 std::size_t PcgSolver::estimate_memory(const EllipticProblem& problem, const PcgOptions& options) {
   std::size_t bytes = 0;
   for (int block = 0; block < problem.blocks(); ++block) {

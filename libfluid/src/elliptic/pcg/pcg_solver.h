@@ -15,7 +15,7 @@ class PcgSolver final : public EllipticSolver {
  public:
   // Throws std::invalid_argument for options out of range, and what the preconditioner throws.
   PcgSolver(const EllipticProblem& problem, const PcgOptions& options);
-  std::string name() const override { return "pcg+" + preconditioner_->name(); }
+  std::string name() const override;
   int factorisations() const override { return preconditioner_->factorisations(); }
   static std::size_t estimate_memory(const EllipticProblem& problem, const PcgOptions& options);
 

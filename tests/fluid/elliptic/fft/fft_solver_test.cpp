@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(All, FftSolverOf,
                          case_name);
 
 TEST(FftSolver, RemovesTheMeanOfEachComponentIfAllAxesArePeriodic) {
-  const Grid grid({0, 0, 0}, {1, 2, 1}, {8, 9, 10}, {true, true, true});
+  const Grid grid({0, 0, 0}, {1, 2, 1}, {8, 9, 10}, {.periodic = {true, true, true}});
   const EllipticProblem p = EllipticProblem::velocity(grid, EllipticForm::laplacian, 0.0, 2.0);
   for (const Transforms transforms : {Transforms::pairs_of_lines, Transforms::fftw_r2r}) {
     FaceVector rhs(grid);
@@ -252,7 +252,7 @@ TEST(FftSolver, IsAccurateIfOnlyWallsInZHoldTheSolution) {
   for (const double alpha : {0.0, 1e-14, 1e-9, 1e-4}) {
     for (const Centring centring : {Centring::cell, Centring::face_z}) {
       for (const double length : {1.0, 30.0, 1e3}) {
-        const Grid grid({0, 0, 0}, {length, length, 1}, {6, 6, 64}, {true, true, false});
+        const Grid grid({0, 0, 0}, {length, length, 1}, {6, 6, 64}, {.periodic = {true, true, false}});
         const EllipticProblem p(grid, centring, BoundaryCondition::dirichlet, alpha, 1.0);
         const auto solver = make_elliptic_solver(p, FftOptions{});
         const Numbers exact(p, 26);
