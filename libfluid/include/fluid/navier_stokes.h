@@ -137,7 +137,7 @@ class NavierStokes {
 
   // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver
   // for the exception). Throws
-  // std::invalid_argument unless dt > 0 is finite and a field of viscosity is > 0, and std::runtime_error, with the step
+  // std::invalid_argument unless dt > 0 is finite, a field of viscosity is > 0, and both it and the force are on this grid, and std::runtime_error, with the step
   // and the time, if the solution is not finite or a solver has not converged; the state is then lost, but for retry().
   void step(double dt);
 

@@ -5,25 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "message.h"
+#include "operators/check_blocks.h"
 
 namespace vesiflow::fluid {
 namespace {
-
-void check_shape(const char* what, ConstBlocks arrays, const EllipticProblem& problem) {
-  if (arrays.count() != problem.blocks()) {
-    throw std::invalid_argument(
-        message("elliptic solver: ", what, " has ", arrays.count(), " arrays, the problem has ", problem.blocks()));
-  }
-  for (int block = 0; block < problem.blocks(); ++block) {
-    const auto& shape = arrays[block].extent;
-    const auto expected = problem.extent(block);
-    if (shape == expected) continue;
-    throw std::invalid_argument(message("elliptic solver: ", what, " is ", shape[0], " x ", shape[1], " x ", shape[2],
-                                        ", the problem has ", expected[0], " x ", expected[1], " x ", expected[2],
-                                        " unknowns"));
-  }
-}
 
 // The inverse of an elliptic operator is full: one number of b that is not finite spoils every number of x.
 // So a look at one row of x replaces a pass over b.
@@ -51,8 +36,8 @@ void EllipticSolver::update(const EllipticProblem& problem) {
 SolveReport EllipticSolver::solve(ConstBlocks rhs, Blocks x) {
   const auto start = std::chrono::steady_clock::now();
   if (!ready_) throw std::runtime_error("elliptic solver: the last update failed; update it again");
-  check_shape("the right-hand side", rhs, problem_);
-  check_shape("the solution", x, problem_);
+  check_blocks("elliptic solver", "the right-hand side", rhs, problem_);
+  check_blocks("elliptic solver", "the solution", x, problem_);
   SolveReport report = do_solve(rhs, x);
   if (!is_finite(x)) {
     throw std::runtime_error("elliptic solver: the solution is not finite, because the right-hand side is not");

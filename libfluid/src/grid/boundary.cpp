@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "grid/same_grid.h"
+#include "grid/check_grid.h"
 #include "message.h"
 
 namespace vesiflow::fluid {
@@ -230,7 +230,7 @@ void WallVelocity::balance_flux() {
 }
 
 void WallVelocity::set_normal_faces(FaceVector& u) const {
-  require_same_grid("set_normal_faces", is_on(grid_, u));
+  check_grid("boundary", "u", u, grid_);
   const auto fields = u.points();
   for (int axis = 0; axis < 3; ++axis) {
     const View& field = fields[axis];
@@ -252,7 +252,7 @@ void WallVelocity::set_normal_faces(FaceVector& u) const {
 // Axis x first, then y, then z: each sweep also covers the ghosts that earlier ones have set, so that edges and corners
 // are filled too.
 void WallVelocity::fill_ghosts(FaceVector& u) const {
-  require_same_grid("fill_ghosts", is_on(grid_, u));
+  check_grid("boundary", "u", u, grid_);
   const auto fields = u.points();
   for (int component = 0; component < 3; ++component) {
     const View& field = fields[component];
@@ -286,7 +286,7 @@ void WallVelocity::fill_wall_ghosts(const Plane& wall, const View& field) const 
 }
 
 void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
-  require_same_grid("add_diffusion", is_on(grid_, rhs));
+  check_grid("boundary", "rhs", rhs, grid_);
   const auto fields = rhs.points();
   for (const Plane& wall : planes_) {
     if (!grid_.has_wall(wall.axis, wall.side)) continue;

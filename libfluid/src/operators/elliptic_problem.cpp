@@ -6,8 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "grid/check_grid.h"
 #include "grid/planes.h"
 #include "message.h"
+#include "operators/check_blocks.h"
 #include "operators/stencil.h"
 
 namespace vesiflow::fluid {
@@ -29,9 +31,7 @@ EllipticProblem::EllipticProblem(const Grid& grid_, Centring centring, BoundaryC
   if (mu.is_constant() && !(std::isfinite(mu.value()) && mu.value() > 0.0)) {
     throw std::invalid_argument(message("elliptic problem: mu is ", mu.value(), "; it must be finite and > 0"));
   }
-  if (!mu.is_constant() && !(mu.field().grid() == grid)) {
-    throw std::invalid_argument("elliptic problem: the field mu is on another grid");
-  }
+  if (!mu.is_constant()) check_grid("elliptic problem", "the field mu", mu.field(), grid);
   if (boundary == BoundaryCondition::neumann && centring != Centring::cell) {
     throw std::invalid_argument(message("elliptic problem: neumann conditions with ", name(centring),
                                         " centring; use cell centring, or dirichlet conditions"));
@@ -77,13 +77,32 @@ EllipticProblem EllipticProblem::with_constant_viscosity(double value) const {
   return problem;
 }
 
+void check_blocks(const char* function, const char* argument, ConstBlocks arrays, const EllipticProblem& problem) {
+  if (arrays.count() != problem.blocks()) {
+    throw std::invalid_argument(
+        message(function, ": ", argument, " has ", arrays.count(), " arrays, the problem has ", problem.blocks()));
+  }
+  for (int block = 0; block < problem.blocks(); ++block) {
+    const auto& found = arrays[block].extent;
+    const auto wanted = problem.extent(block);
+    if (found == wanted) continue;
+    throw std::invalid_argument(message(function, ": ", argument, " is ", found[0], " x ", found[1], " x ", found[2],
+                                        ", the problem has ", wanted[0], " x ", wanted[1], " x ", wanted[2],
+                                        " unknowns"));
+  }
+}
+
 void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y) {
+  check_blocks("apply", "x", x, problem);
+  check_blocks("apply", "y", y, problem);
   GhostedBlocks ghosted(problem);
   ghosted.assign(x);
   Stencil(problem).apply(ghosted, y);
 }
 
 double relative_residual(const EllipticProblem& problem, ConstBlocks rhs, ConstBlocks x) {
+  check_blocks("relative_residual", "the right-hand side", rhs, problem);
+  check_blocks("relative_residual", "x", x, problem);
   GhostedBlocks product(problem);
   apply(problem, x, product.unknowns());
   double largest = 0.0;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/check_grid.h"
 #include "grid/planes.h"
-#include "grid/same_grid.h"
 #include "operators/convection_row.h"
 
 namespace vesiflow::fluid {
@@ -30,7 +30,7 @@ struct CellDivergence {
 }  // namespace
 
 void gradient(const Field<Cell>& p, FaceVector& g) {
-  require_same_grid("gradient", is_on(p.grid(), g));
+  check_grid("gradient", "g", g, p.grid());
   const auto fields = g.points();
   const ConstView cells = p.points();
   for_each_plane(cells.extent, [&](int k) {
@@ -49,7 +49,7 @@ void gradient(const Field<Cell>& p, FaceVector& g) {
 }
 
 void divergence(const FaceVector& u, Field<Cell>& d) {
-  require_same_grid("divergence", is_on(d.grid(), u));
+  check_grid("divergence", "u", u, d.grid());
   const CellDivergence cell_divergence(u);
   for_each_plane(d.extent(), [&](int k) {
     for (int j = 0; j < d.extent(1); ++j) {
@@ -64,7 +64,7 @@ void divergence(const FaceVector& u, Field<Cell>& d) {
 }
 
 double max_divergence(const FaceVector& u) {
-  require_same_grid("max_divergence", is_on(u.grid(), u));
+  check_grid("max_divergence", "u", u, u.grid());
   const CellDivergence cell_divergence(u);
   const auto& n = u.grid().cells;
   return max_over_planes(n, [&](int k) {
@@ -114,7 +114,8 @@ void convection_row(const Grid& grid, const std::array<ConstView, 3>& u, int com
 }
 
 void convection(const FaceVector& u, FaceVector& n) {
-  require_same_grid("convection", is_on(u.grid(), u) && is_on(u.grid(), n));
+  check_grid("convection", "u", u, u.grid());
+  check_grid("convection", "n", n, u.grid());
   const auto fields = u.points();
   const auto results = n.points();
   for_each_plane(u.grid().cells, [&](int k) {

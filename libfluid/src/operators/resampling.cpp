@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "grid/check_grid.h"
 #include "grid/planes.h"
 
 namespace vesiflow::fluid {
@@ -67,6 +68,8 @@ void resample(const Field<Cell>& from, Field<Cell>& to) {
 }
 
 void resample(const FaceVector& from, FaceVector& to) {
+  check_grid("resample", "from", from, from.grid());
+  check_grid("resample", "to", to, to.grid());
   interpolate(from.x, to.x);
   interpolate(from.y, to.y);
   interpolate(from.z, to.z);

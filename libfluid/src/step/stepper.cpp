@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fluid/operators.h"
+#include "grid/check_grid.h"
 #include "grid/planes.h"
 #include "message.h"
 
@@ -30,9 +31,8 @@ class PhaseTimer {
   Clock::time_point start_ = Clock::now();
 };
 
-void check_grid(const Grid& grid, const Viscosity& viscosity) {
-  if (viscosity.is_constant() || viscosity.field().grid() == grid) return;
-  throw std::invalid_argument("fluid: the field of viscosity is on another grid");
+void check_viscosity(const Grid& grid, const Viscosity& viscosity) {
+  if (!viscosity.is_constant()) check_grid("fluid", "the field of viscosity", viscosity.field(), grid);
 }
 
 void check_memory(const Grid& grid, const FluidParameters& parameters) {
@@ -50,7 +50,7 @@ FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
     throw std::invalid_argument(message("fluid: reynolds_number is ", re, "; it must be finite and > 0"));
   }
   parameters.viscosity.checked_range();
-  check_grid(grid, parameters.viscosity);
+  check_viscosity(grid, parameters.viscosity);
   check_memory(grid, parameters);
   return parameters;
 }
@@ -208,8 +208,8 @@ void Stepper::set_velocity(const std::function<Vector3(const Vector3&)>& functio
 }
 
 void Stepper::start_from(const FaceVector& velocity_, const Field<Cell>& pressure_) {
-  if (!(velocity_.grid() == grid && pressure_.grid() == grid))
-    throw std::invalid_argument("fluid: the fields to start from are on another grid");
+  check_grid("fluid", "the velocity to start from", velocity_, grid);
+  check_grid("fluid", "the pressure to start from", pressure_, grid);
   if (!(is_finite(velocity_) && is_finite(pressure_.points())))
     throw std::invalid_argument("fluid: the fields to start from are not finite");
   copy(velocity_, velocity);
@@ -221,9 +221,9 @@ void Stepper::start_from(const FaceVector& velocity_, const Field<Cell>& pressur
 
 void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, const Field<Cell>& pressure_,
                       const FluidClock& clock_) {
-  if (!(velocity_.grid() == grid && previous_.grid() == grid && pressure_.grid() == grid)) {
-    throw std::invalid_argument("fluid: the state to restore is on another grid");
-  }
+  check_grid("fluid", "the velocity to restore", velocity_, grid);
+  check_grid("fluid", "the previous velocity to restore", previous_, grid);
+  check_grid("fluid", "the pressure to restore", pressure_, grid);
   // The last step is the time between, but for round-off in long times.
   const double between = clock_.time - clock_.previous_time;
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * std::abs(clock_.time);
@@ -293,6 +293,7 @@ void Stepper::step(double dt) {
   if (!(std::isfinite(dt) && dt > 0.0)) {
     throw std::invalid_argument(message("fluid: the time step is ", dt, "; it must be finite and > 0"));
   }
+  check_grid("fluid", "the force", force, grid);  // others may have moved another field into it
   walls.evaluate(clock.time + dt);
   try {
     if (stokes_) {
@@ -340,7 +341,7 @@ void Stepper::update_velocity_solver(double a) {
   reference_viscosity_ = parameters.viscosity.checked_range().max;
   if (variable_viscosity()) {
     // Looked at anew, as its owner may have moved another field into it.
-    check_grid(grid, parameters.viscosity);
+    check_viscosity(grid, parameters.viscosity);
     viscosity_.set(grid, parameters.viscosity);
   }
   const EllipticProblem problem = momentum_problem(grid, parameters, a, reference_viscosity_);

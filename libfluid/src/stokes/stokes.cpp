@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fluid/operators.h"
+#include "grid/check_grid.h"
 #include "message.h"
 #include "operators/step_passes.h"
 #include "stokes/bramble_pasciak_solver.h"
@@ -77,9 +78,7 @@ StokesSolver::System::System(const Grid& grid_, const StokesOptions& options_)
 }
 
 void StokesSolver::System::update(const Viscosity& mu) {
-  if (!mu.is_constant() && !(mu.field().grid() == grid)) {
-    throw std::invalid_argument("stokes: the viscosity is on another grid");
-  }
+  if (!mu.is_constant()) check_grid("stokes", "the viscosity", mu.field(), grid);
   mu.checked_range();
   if (mu.is_constant()) {
     if (!constant_) constant_ = std::make_unique<SchurComplementSolver>(grid, mu.value());
@@ -124,9 +123,9 @@ void StokesSolver::System::remove_divergence(const WallVelocity& walls, FaceVect
 StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u,
                                          Field<Cell>& p, const Vector3& uniform_force) {
   const auto start = std::chrono::steady_clock::now();
-  if (!(force.grid() == grid && u.grid() == grid && p.grid() == grid)) {
-    throw std::invalid_argument("stokes: the force, the velocity or the pressure is on another grid");
-  }
+  check_grid("stokes", "the force", force, grid);
+  check_grid("stokes", "the velocity", u, grid);
+  check_grid("stokes", "the pressure", p, grid);
   StokesReport report;
   walls.set_normal_faces(lift_);
   walls.fill_ghosts(lift_);
