@@ -78,7 +78,7 @@ NavierStokes make_flow(const Options& options) {
   const auto shear = [frequency](const Vector3& r, double t) {
     return Vector3{r[2] * (frequency == 0.0 ? 1.0 : std::sin(frequency * t)), 0.0, 0.0};
   };
-  return {grid, parameters, shear, frequency == 0.0};
+  return {grid, parameters, shear, frequency == 0.0 ? WallMotion::steady : WallMotion::unsteady};
 }
 
 // At cell centres of the plane y = 0, between the two middle layers of cells.

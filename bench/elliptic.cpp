@@ -69,7 +69,8 @@ struct Row {
 };
 
 Row measure(const Case& c, const std::array<int, 3>& cells, int repetitions, unsigned planning, Triad& triad) {
-  const Grid grid({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]}, cells, c.periodic, c.mirror);
+  const Grid grid({0, 0, 0}, {1.0 * cells[0], 1.0 * cells[1], 1.0 * cells[2]}, cells,
+                  {.periodic = c.periodic, .mirror = c.mirror});
   const EllipticProblem problem(grid, c.centring, c.boundary, c.boundary == neumann ? 0.0 : 0.5, 1.0);
   const auto solver = make_elliptic_solver(problem, FftOptions{});
   const auto reference = make_elliptic_solver(problem, FftOptions{FftOptions::Transforms::fftw_r2r});

@@ -14,7 +14,7 @@
 #include <omp.h>
 #include <CLI/CLI.hpp>
 
-#include "legendre_tables.h"
+#include "harmonics/legendre_tables.h"
 #include "vesicle/spherical_harmonics.h"
 
 namespace {

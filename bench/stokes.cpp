@@ -47,12 +47,7 @@ void stokes_solve(benchmark::State& state) {
   StokesSolver solver(grid);
   solver.update(ratio == 1.0 ? Viscosity(1.0) : Viscosity(sample_viscosity(grid, mu)));
   const FaceVector force = membrane_force(grid);
-  const WallVelocity walls(
-      grid,
-      [](const Vector3& x, double) {
-        return Vector3{x[2], 0, 0};
-      },
-      true);
+  const WallVelocity walls(grid, [](const Vector3& x, double) { return Vector3{x[2], 0, 0}; });
   FaceVector u(grid);
   Field<Cell> p(grid);
   StokesReport report;

@@ -80,7 +80,7 @@ Run run(const Setting& s, const std::string& treatment, int steps) {
   const auto mu = std::make_shared<Field<Cell>>(grid);
   set_viscosity(ViscousBlob(s.ratio, grid.spacing(0), 0.0), *mu);
   const auto walls = [](const Vector3& r, double t) { return Vector3{r[2] * strength(t), 0.0, 0.0}; };
-  NavierStokes fluid(grid, parameters_of(treatment, s.reynolds_number, mu), walls, false);
+  NavierStokes fluid(grid, parameters_of(treatment, s.reynolds_number, mu), walls, WallMotion::unsteady);
   Run result;
   for (int k = 1; k <= steps; ++k) {
     const double t = static_cast<double>(k) / steps;

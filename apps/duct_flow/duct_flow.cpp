@@ -18,7 +18,7 @@ Grid grid_of(const Duct& duct, const std::array<int, 3>& cells) {
   return {{-0.5 * duct.length, -duct.d, -duct.e},
           {0.5 * duct.length, duct.d, duct.e},
           cells,
-          {duct.ends == DuctEnds::periodic, false, false}};
+          {.periodic = {duct.ends == DuctEnds::periodic, false, false}}};
 }
 
 BoundaryVelocity wall_velocity(const Duct& duct, const DuctSeries& series) {
@@ -48,7 +48,7 @@ SteadyRun solve_stokes(const Duct& duct, const DuctSeries& series, const SteadyO
   FaceVector force(grid);
   force.x.fill(driving_force(duct, series));
   Field<Cell> pressure(grid);
-  const WallVelocity walls(grid, wall_velocity(duct, series), true);
+  const WallVelocity walls(grid, wall_velocity(duct, series));
   StokesSolver solver(grid, {.tolerance = options.tolerance});
   const StokesReport report = solver.solve(force, walls, velocity, pressure);
   SteadyRun run;
