@@ -78,7 +78,10 @@ double lower_quartile(std::vector<double> values) {
 class Case {
  public:
   Case(int cells, double ratio, const std::string& markers)
-      : cells_(cells), ratio_(ratio), markers_(markers), simulation_(parameters_of(cells, ratio, motion_of(markers)),
+      : cells_(cells),
+        ratio_(ratio),
+        markers_(markers),
+        simulation_(parameters_of(cells, ratio, motion_of(markers)),
                     shear_flow(1.0, parameters_of(cells, ratio, motion_of(markers)).domain)) {
     for (int k = 0; k < 4; ++k) simulation_.step();  // first step and histories
     const long before = vesiflow::test::allocation_count();

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "check.h"
+#include "one_thread.h"
 #include "run/errors.h"
 #include "run/plan.h"
-#include "one_thread.h"
 #include "scene/scene_file.h"
 
 namespace vesiflow::fuzz {

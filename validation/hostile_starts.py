@@ -4,7 +4,7 @@
 usage: scripts/python.sh validation/hostile_starts.py [--jobs N] [--apps build/release/apps] [--docs]
 
 "Right" is measured against the same scene on a grid twice as fine (or the one the case names). Results are in out/hostile, the table in
-bench/results/stability/hostile_starts.json; --docs puts it into docs/stability.md. What has been run is not run again. tests/coupling/hostile_starts_test.cpp has
+bench/results/stability/hostile_starts.json; --docs puts it into docs/stability.md. What has been run is not run again. tests/simulation/hostile_starts_test.cpp has
 the quick ones.
 """
 

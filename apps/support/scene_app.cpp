@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "command_line.h"
+#include "coupling/flow.h"
+#include "memory_use.h"
 #include "run/checkpoint.h"
 #include "run/errors.h"
-#include "coupling/flow.h"
 #include "run/plan.h"
 #include "run/run.h"
-#include "memory_use.h"
 #include "streams.h"
 
 using namespace vesiflow::run;

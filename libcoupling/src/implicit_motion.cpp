@@ -15,7 +15,8 @@ constexpr double best_estimate = 0.75;
 
 }  // namespace
 
-ImplicitMotion::ImplicitMotion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle, const vesicle::Membrane& membrane)
+ImplicitMotion::ImplicitMotion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
+                               const vesicle::Membrane& membrane)
     : ShapeFollowing(parameters, flow, vesicle, membrane) {
   overestimate_ = best_estimate;
   const Eigen::Index size = as_vector(coefficients_).size();

@@ -18,7 +18,8 @@ namespace vesiflow::coupling {
 /// until it has relaxed, and the fluid by sigma0/4 of it in unit time.
 class ImplicitMotion final : public ShapeFollowing {
  public:
-  ImplicitMotion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle, const vesicle::Membrane& membrane);
+  ImplicitMotion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
+                 const vesicle::Membrane& membrane);
 
   bool predict(double dt, vesicle::Membrane& membrane) override;
   /// Evaluates G at the increment under trial, for the membrane and its fluid there.

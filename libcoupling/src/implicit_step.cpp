@@ -6,7 +6,8 @@
 
 namespace vesiflow::coupling {
 
-ImplicitStep::ImplicitStep(const SimulationParameters& parameters, std::span<const std::unique_ptr<ImmersedVesicle>> vesicles)
+ImplicitStep::ImplicitStep(const SimulationParameters& parameters,
+                           std::span<const std::unique_ptr<ImmersedVesicle>> vesicles)
     : vesicles_(vesicles) {
   std::size_t size = 0;
   for (const auto& v : vesicles_) {

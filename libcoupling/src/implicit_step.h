@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fixed_point.h"
-#include "step/immersed_vesicle.h"
 #include "implicit_motion.h"
+#include "step/immersed_vesicle.h"
 
 namespace vesiflow::coupling {
 

@@ -6,9 +6,9 @@
 
 #include "coupling/marker_integrator.h"
 #include "implicit_motion.h"
-#include "transfer/mirror_symmetry.h"
 #include "shape_following.h"
 #include "step/step_error.h"
+#include "transfer/mirror_symmetry.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -23,9 +23,10 @@ class MaterialMotion final : public MembraneMotion {
         symmetry_(parameters, membrane.positions()),
         positions_(membrane.positions()),
         displacement_(positions_),
-        integrator_(make_marker_integrator(
-            parameters.time.markers, static_cast<std::size_t>(positions_.size()),
-            {parameters.time.relative_tolerance, parameters.time.absolute_tolerance * parameters.vesicles[vesicle].radius})) {
+        integrator_(
+            make_marker_integrator(parameters.time.markers, static_cast<std::size_t>(positions_.size()),
+                                   {parameters.time.relative_tolerance,
+                                    parameters.time.absolute_tolerance * parameters.vesicles[vesicle].radius})) {
     if (parameters.time.adaptive) error_.emplace(positions_.rows());
     filtered_velocity_ = [this](double fraction, std::span<const double> state, std::span<double> velocity) {
       evaluate(fraction, Eigen::Map<const vesicle::VectorField>(state.data(), positions_.rows(), 3));
@@ -109,10 +110,12 @@ class MaterialMotion final : public MembraneMotion {
 
 }  // namespace
 
-std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
-                                                     const vesicle::Membrane& membrane) {
-  if (parameters.time.markers == MarkerMotion::shape_following) return std::make_unique<ShapeFollowing>(parameters, flow, vesicle, membrane);
-  if (parameters.time.markers == MarkerMotion::implicit) return std::make_unique<ImplicitMotion>(parameters, flow, vesicle, membrane);
+std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& parameters, const Flow& flow,
+                                                     std::size_t vesicle, const vesicle::Membrane& membrane) {
+  if (parameters.time.markers == MarkerMotion::shape_following)
+    return std::make_unique<ShapeFollowing>(parameters, flow, vesicle, membrane);
+  if (parameters.time.markers == MarkerMotion::implicit)
+    return std::make_unique<ImplicitMotion>(parameters, flow, vesicle, membrane);
   return std::make_unique<MaterialMotion>(parameters, vesicle, membrane);
 }
 

@@ -64,11 +64,13 @@ Eigen::Map<Eigen::VectorXd> ShapeFollowing::as_vector(Coefficients& c) {
 
 int ShapeFollowing::resolved_degrees(const SimulationParameters& parameters, std::size_t vesicle, double radius) {
   const int latitudes = parameters.latitudes(vesicle);
-  const int chosen = parameters.mesh.normal_degrees > 0 ? parameters.mesh.normal_degrees : vesicle::two_thirds_degrees(latitudes);
+  const int chosen =
+      parameters.mesh.normal_degrees > 0 ? parameters.mesh.normal_degrees : vesicle::two_thirds_degrees(latitudes);
   return std::max(4, std::min(chosen, grid_degrees(parameters, radius)));
 }
 
-ShapeFollowing::ShapeFollowing(const SimulationParameters& parameters, const Flow& flow, std::size_t number, const vesicle::Membrane& membrane)
+ShapeFollowing::ShapeFollowing(const SimulationParameters& parameters, const Flow& flow, std::size_t number,
+                               const vesicle::Membrane& membrane)
     : sigma0_(membrane.parameters().sigma0),
       bending_(0.25 / membrane.parameters().capillary_number),
       reynolds_number_(parameters.fluid.reynolds_number),
@@ -99,7 +101,8 @@ ShapeFollowing::ShapeFollowing(const SimulationParameters& parameters, const Flo
   if (parameters.has_viscosity_contrast() && has_inertia_ &&
       parameters.fluid.viscous_treatment != fluid::ViscousTreatment::implicit) {
     double largest = 1.0;
-    for (std::size_t i = 0; i < parameters.vesicles.size(); ++i) largest = std::max(largest, parameters.viscosity_ratio(i));
+    for (std::size_t i = 0; i < parameters.vesicles.size(); ++i)
+      largest = std::max(largest, parameters.viscosity_ratio(i));
     explicit_viscosity_ = largest - solved_viscosity_;
     solved_viscosity_ = largest;
     const double share = explicit_viscosity_ / solved_viscosity_;

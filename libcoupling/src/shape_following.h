@@ -48,7 +48,8 @@ namespace vesiflow::coupling {
 /// (their waves would grow on the slip).
 class ShapeFollowing : public MembraneMotion {
  public:
-  ShapeFollowing(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle, const vesicle::Membrane& membrane);
+  ShapeFollowing(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
+                 const vesicle::Membrane& membrane);
 
   bool predict(double dt, vesicle::Membrane& membrane) override;
   void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,

@@ -64,10 +64,12 @@ TEST(AdaptiveStep, StepsAndErrorFollowTheTolerance) {
 
 // A first step far beyond what the errors allow is taken back, and the run is as if it had not been tried.
 TEST(AdaptiveStep, RefusedStepsLeaveNoTrace) {
-  SceneSimulation tried(small_scene(adaptive_with({"time.tolerance=1e-7", "time.step=0.03", "limits.area_error=2e-4"})));
+  SceneSimulation tried(
+      small_scene(adaptive_with({"time.tolerance=1e-7", "time.step=0.03", "limits.area_error=2e-4"})));
   tried.step();
   EXPECT_GT(tried.rejected_steps(), 0);
-  SceneSimulation direct(small_scene(adaptive_with({"time.tolerance=1e-7", "time.step=0.03", "limits.area_error=2e-4"})));
+  SceneSimulation direct(
+      small_scene(adaptive_with({"time.tolerance=1e-7", "time.step=0.03", "limits.area_error=2e-4"})));
   SimulationState state = direct.state();
   state.step_control[0] = tried.time_step();
   direct.restore(state);

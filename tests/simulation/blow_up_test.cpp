@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "step/blow_up_guard.h"
-#include "run/checkpoint.h"
 #include "coupling/errors.h"
+#include "run/checkpoint.h"
 #include "run/run.h"
-#include "support/small_scene.h"
+#include "step/blow_up_guard.h"
 #include "step/velocity_noise.h"
+#include "support/small_scene.h"
 
 namespace vesiflow::coupling {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "step/blow_up_guard.h"
 #include "coupling/errors.h"
-#include "run/plan.h"
 #include "coupling/simulation.h"
+#include "run/plan.h"
 #include "run/run_quality.h"
+#include "step/blow_up_guard.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::coupling {
@@ -81,8 +81,9 @@ reduced_volume = 0.85
 TEST(HostileStarts, AMembraneTooStiffForTheStepStopsWithItsCause) {
   for (const char* markers : {"shape_following", "euler"})
     for (const char* capillary_number : {"1e-12", "1e-9", "1e-7", "1e-6", "1e-5", "1e-4"}) {
-      SceneSimulation simulation(small_scene({std::string("membrane.capillary_number=") + capillary_number,
-                                         std::string("time.markers=") + markers, "time.step=1/24", "membrane.g=1"}));
+      SceneSimulation simulation(
+          small_scene({std::string("membrane.capillary_number=") + capillary_number,
+                       std::string("time.markers=") + markers, "time.step=1/24", "membrane.g=1"}));
       try {
         for (int i = 0; i < 3; ++i) {
           simulation.step();

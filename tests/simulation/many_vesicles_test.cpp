@@ -8,8 +8,8 @@
 
 #include "coupling/overlap.h"
 #include "coupling/simulation.h"
-#include "support/small_scene.h"
 #include "support/allocation_counter.h"
+#include "support/small_scene.h"
 
 namespace vesiflow::coupling {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "coupling/errors.h"
-#include "run/plan.h"
 #include "coupling/repulsion.h"
 #include "coupling/simulation.h"
+#include "run/plan.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::coupling {

@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "coupling/simulation.h"
 #include "plan/cost_model.h"
 #include "run/plan.h"
 #include "run/run.h"
-#include "coupling/simulation.h"
-#include "support/small_scene.h"
 #include "support/allocation_counter.h"
+#include "support/small_scene.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -142,8 +142,8 @@ class Output : public testing::Test {
 
   std::map<std::string, std::int64_t> entries_after_run(const Overrides& overrides) const {
     SceneSimulation simulation(small_scene(with({"domain.cells=16", "mesh.latitudes=12", "mesh.tangential_degrees=8",
-                                            "time.step=1/32", "membrane.g=4", "time.end=0.1"},
-                                           overrides)));
+                                                 "time.step=1/32", "membrane.g=4", "time.end=0.1"},
+                                                overrides)));
     RunOptions options;
     options.directory = folder_;
     options.quiet = true;

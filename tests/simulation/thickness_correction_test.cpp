@@ -98,7 +98,8 @@ TEST(ThicknessCorrection, BringsTheRatesOfACoarseSphereNearTheory) {
 // The tank-treading of a coarse box moves towards that of a fine one: less inclined and faster.
 TEST(ThicknessCorrection, MovesASimulationTheRightWay) {
   const auto after = [](const char* correction) {
-    SceneSimulation simulation(small_scene({std::string("coupling.thickness_correction=") + correction, "membrane.g=1.5"}));
+    SceneSimulation simulation(
+        small_scene({std::string("coupling.thickness_correction=") + correction, "membrane.g=1.5"}));
     for (int i = 0; i < 96; ++i) simulation.step();
     return simulation.measure().at(0);
   };

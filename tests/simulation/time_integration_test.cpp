@@ -6,8 +6,8 @@
 #include "coupling/errors.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/simulation.h"
-#include "support/small_scene.h"
 #include "support/allocation_counter.h"
+#include "support/small_scene.h"
 
 namespace vesiflow::coupling {
 namespace {

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "coupling/errors.h"
-#include "run/plan.h"
 #include "coupling/simulation.h"
+#include "run/plan.h"
+#include "support/allocation_counter.h"
 #include "support/shape_modes.h"
 #include "support/small_scene.h"
-#include "support/allocation_counter.h"
 
 namespace vesiflow::coupling {
 namespace {

@@ -7,8 +7,8 @@
 namespace vesiflow::coupling {
 
 // What whole simulations are tested by is written as scenes.
-using run::check_scene, run::flow_of, run::FlowType, run::load_scene, run::OnBlowUp, run::Overrides, run::parse_scene, run::Preset, run::Scene,
-    run::SceneError, run::SceneSimulation, run::to_toml;
+using run::check_scene, run::flow_of, run::FlowType, run::load_scene, run::OnBlowUp, run::Overrides, run::parse_scene,
+    run::Preset, run::Scene, run::SceneError, run::SceneSimulation, run::to_toml;
 
 /// A vesicle in shear flow small enough for a test: 24^3 cells of the size of the paper's N = 48, 16 latitudes.
 inline Scene small_scene(const Overrides& overrides = {}) {

@@ -16,12 +16,13 @@ enum class FlowStart { flow, rest };
 /// A flow without vesicles: what the walls do, what drives it, and where it starts from.
 struct Flow {
   fluid::BoundaryVelocity velocity;       ///< u(x, t), on the walls and, undisturbed, inside; one thread at a time
-  bool steady = true;                     ///< velocity does not depend on time
+  fluid::WallMotion motion = fluid::WallMotion::steady;  ///< whether velocity depends on time
   std::array<bool, 3> may_be_periodic{};  ///< along which axes it repeats
   std::array<bool, 3> may_be_mirrored{};  ///< on which axes it is symmetric about the plane of the box's lower end
   /// Uniform force density -dp/dx that takes the place of the pressure drop where axis 0 is periodic: mu_o Lap u.
   double driving_force = 0.0;
-  double greatest_gradient = 0.0;  ///< of a velocity component along an axis, anywhere in the box at any time; 0 if not known
+  double greatest_gradient =
+      0.0;  ///< of a velocity component along an axis, anywhere in the box at any time; 0 if not known
   std::optional<double> greatest_speed{};  ///< of a velocity component, likewise; none if not known
   double angular_frequency = 0.0;
   std::string description;  ///< one line, for people
@@ -44,6 +45,6 @@ Flow plane_poiseuille_flow(double peak_velocity, const SimulationParameters::Dom
 /// u = u_max times fluid::DuctSeries(y, z) (Eq. (35) of the paper)
 Flow duct_flow(double peak_velocity, const SimulationParameters::Domain& domain);
 /// A flow of one's own. Nothing is known of it, so nothing of it is checked.
-Flow custom_flow(const fluid::BoundaryVelocity& velocity, bool steady);
+Flow custom_flow(const fluid::BoundaryVelocity& velocity, fluid::WallMotion motion);
 
 }  // namespace vesiflow::coupling

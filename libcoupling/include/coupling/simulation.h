@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,6 +46,13 @@ struct SimulationState {
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
 };
 
+/// A force of a program's own on the fluid at the markers of a vesicle, per area of the membrane: adds to `force` (markers x 3). Called in each step,
+/// and in each evaluation of an implicit one, by one thread, with the geometry that the membrane's own forces are of.
+using MembraneForce =
+    std::function<void(double time, std::size_t vesicle, const vesicle::Surface& surface, vesicle::VectorField& force)>;
+/// A force of a program's own on the fluid, per volume, at a point and time. Called by one thread.
+using FluidForce = std::function<fluid::Vector3(const fluid::Vector3& x, double time)>;
+
 struct ImmersedVesicle;
 class ExternalForces;
 class ImplicitStep;
@@ -63,6 +71,11 @@ class Simulation {
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
+
+  /// Adds a force on the membranes from the next step on. It is no part of checkpoints: a program that restarts adds it again.
+  void add_force(MembraneForce force);
+  /// Sets the force on the fluid from the next step on, evaluated at the faces of the grid in each step, or none (nullptr). Not in checkpoints.
+  void set_fluid_force(FluidForce force);
 
   /// One time step (Steps 1 to 5 of the paper), of length time.step or, if time.adaptive, as long as its errors allow: a step
   /// whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a look at the meshes and,
@@ -149,6 +162,7 @@ class Simulation {
   void solve_step(double dt);
   void compute_forces(double dt);
   void spread_forces();
+  void put_fluid_force();
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
@@ -164,6 +178,8 @@ class Simulation {
   fluid::NavierStokes fluid_;
   std::shared_ptr<const Start> start_;
   std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
+  std::vector<MembraneForce> own_forces_;  // those that the program has added
+  FluidForce fluid_force_;                 // the same
   std::unique_ptr<ExternalForces> external_forces_;
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if none are wanted
   std::vector<Redistribution> last_redistributions_;

@@ -8,6 +8,7 @@
 
 #include "coupling/delta_kernel.h"
 #include "coupling/marker_integrator.h"
+#include "fluid/elliptic_solver.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/coefficients.h"
 #include "vesicle/laplace_beltrami.h"
@@ -24,23 +25,17 @@ enum class Shape { sphere, prolate, oblate, ellipsoid, biconcave, harmonics, coe
 enum class Redistribute { never, when_needed };
 /// The fluid velocity in which markers move through a step: that of its end, or linear in time from its start to its end.
 enum class FluidVelocity { frozen, interpolated };
-/// Linear solver of the fluid; `automatic` takes what is fastest for the problem (fluid/elliptic_solver.h).
-enum class FluidSolver { automatic, fft, cholmod, pcg };
-inline constexpr std::array<std::string_view, 4> fluid_solver_names{"auto", "fft", "cholmod", "pcg"};
-inline std::string_view name(FluidSolver solver) {
-  return fluid_solver_names.at(static_cast<std::size_t>(solver));
-}
 
 /// One vesicle as it starts. Lengths are in units of the effective radius of a vesicle of radius 1.
 struct VesicleParameters {
   Shape shape = Shape::prolate;
-  std::optional<double> reduced_volume;           ///< of a prolate or oblate, in [0.3, 1]
-  std::optional<double> aspect_ratio;             ///< of a prolate or oblate: long over short axis, >= 1
-  std::optional<std::array<double, 3>> axes;      ///< of an ellipsoid: ratios of its axes along x, y, z
-  std::vector<vesicle::Harmonic> harmonics;       ///< terms of a perturbed sphere
-  std::optional<vesicle::Coefficients> surface;   ///< of shape = coefficients or mesh
-  std::optional<double> viscosity_ratio;          ///< of this vesicle, where it is not fluid.viscosity_ratio
-  double radius = 1.0;                            ///< effective radius (3V/4 pi)^(1/3)
+  std::optional<double> reduced_volume;          ///< of a prolate or oblate, in [0.3, 1]
+  std::optional<double> aspect_ratio;            ///< of a prolate or oblate: long over short axis, >= 1
+  std::optional<std::array<double, 3>> axes;     ///< of an ellipsoid: ratios of its axes along x, y, z
+  std::vector<vesicle::Harmonic> harmonics;      ///< terms of a perturbed sphere
+  std::optional<vesicle::Coefficients> surface;  ///< of shape = coefficients or mesh
+  std::optional<double> viscosity_ratio;         ///< of this vesicle, where it is not fluid.viscosity_ratio
+  double radius = 1.0;                           ///< effective radius (3V/4 pi)^(1/3)
   std::array<double, 3> centre{0.0, 0.0, 0.0};
   std::array<double, 3> rotation_axis{0.0, 1.0, 0.0};
   double rotation_deg = 0.0;  ///< turns the shape, whose symmetry axis is z, about rotation_axis
@@ -67,8 +62,8 @@ struct SimulationParameters {
     double viscosity_ratio = 1.0;  ///< lambda = mu_i/mu_o of the vesicles that have none of their own
     fluid::ViscousTreatment viscous_treatment = fluid::ViscousTreatment::extrapolated;
     fluid::Inertia inertia = fluid::Inertia::full;
-    FluidSolver velocity_solver = FluidSolver::automatic;
-    FluidSolver pressure_solver = FluidSolver::automatic;
+    fluid::SolverKind velocity_solver = fluid::SolverKind::automatic;
+    fluid::SolverKind pressure_solver = fluid::SolverKind::automatic;
   } fluid;
   struct Coupling {
     DeltaKernel kernel = DeltaKernel::smoothed_four_point;

@@ -26,9 +26,9 @@ constexpr double largest_excess_of_g = 16.0 / 7.0;
 constexpr double least_inertia = 0.5, quiet_g_to_one = 112.0, quiet_g_above_one = 80.0;
 
 // The step.
-constexpr double largest_turn_per_step = 0.25;           ///< of a marker: about 15 degrees
+constexpr double largest_turn_per_step = 0.25;            ///< of a marker: about 15 degrees
 constexpr double recommended_turn_per_step = 1.0 / 12.0;  ///< with shape following (S)
-constexpr double bending_step = 0.5;                      ///< times Ca: a shape far from rest relaxes at a rate of about 1/Ca (S)
+constexpr double bending_step = 0.5;  ///< times Ca: a shape far from rest relaxes at a rate of about 1/Ca (S)
 
 // The flow.
 constexpr double largest_reynolds_number = 10.0;  ///< that has been compared with anything (V)

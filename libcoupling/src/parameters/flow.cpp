@@ -81,7 +81,7 @@ Flow oscillating_shear_flow(double rate, double omega, const Domain& domain) {
               [rate, omega](const Vector3& x, double t) {
                 return Vector3{rate * std::cos(omega * t) * x[2], 0.0, 0.0};
               },
-          .steady = false,
+          .motion = fluid::WallMotion::unsteady,
           .may_be_periodic = along_x_and_y,
           .may_be_mirrored = about_y,
           .greatest_gradient = std::abs(rate),
@@ -137,12 +137,12 @@ Flow duct_flow(double peak, const Domain& domain) {
           .description = "steady duct flow, evaluated once"};
 }
 
-Flow custom_flow(const fluid::BoundaryVelocity& velocity, bool steady) {
+Flow custom_flow(const fluid::BoundaryVelocity& velocity, fluid::WallMotion motion) {
   return {.velocity = velocity,
-          .steady = steady,
+          .motion = motion,
           .may_be_periodic = along_all,
           .may_be_mirrored = about_all,
-          .description = steady ? "custom, evaluated once" : "custom, evaluated in each step"};
+          .description = motion == fluid::WallMotion::steady ? "custom, evaluated once" : "custom, evaluated in each step"};
 }
 
 }  // namespace vesiflow::coupling

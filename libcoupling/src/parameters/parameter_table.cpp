@@ -91,8 +91,8 @@ void visit(SimulationParameters::Fluid& fluid, ParameterVisitor& v) {
   v.number("fluid.viscosity_ratio", fluid.viscosity_ratio, viscosity_ratios);
   visit_choice(v, "fluid.viscous_treatment", fluid.viscous_treatment, {"explicit", "extrapolated", "implicit"});
   visit_choice(v, "fluid.inertia", fluid.inertia, {"full", "unsteady", "none"});
-  visit_choice(v, "fluid.velocity_solver", fluid.velocity_solver, fluid_solver_names);
-  visit_choice(v, "fluid.pressure_solver", fluid.pressure_solver, fluid_solver_names);
+  visit_choice(v, "fluid.velocity_solver", fluid.velocity_solver, fluid::solver_names);
+  visit_choice(v, "fluid.pressure_solver", fluid.pressure_solver, fluid::solver_names);
 }
 
 void visit(SimulationParameters::Coupling& coupling, ParameterVisitor& v) {

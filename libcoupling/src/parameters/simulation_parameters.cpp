@@ -16,20 +16,6 @@ std::array<double, 3> spacings(const SimulationParameters::Domain& domain) {
   return all;
 }
 
-fluid::SolverOptions options_of(FluidSolver solver) {
-  switch (solver) {
-    case FluidSolver::fft:
-      return fluid::FftOptions{};
-    case FluidSolver::cholmod:
-      return fluid::CholmodOptions{};
-    case FluidSolver::pcg:
-      return fluid::PcgOptions{};
-    case FluidSolver::automatic:
-      break;
-  }
-  return fluid::AutoOptions{};
-}
-
 }  // namespace
 
 double SimulationParameters::spacing() const {
@@ -102,7 +88,7 @@ long SimulationParameters::steps() const {
 
 fluid::Grid grid_of(const SimulationParameters& parameters) {
   const SimulationParameters::Domain& domain = parameters.domain;
-  return {domain.lower, domain.upper, domain.cells, domain.periodic, domain.mirror};
+  return {domain.lower, domain.upper, domain.cells, {domain.periodic, domain.mirror}};
 }
 
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters) {
@@ -110,8 +96,8 @@ fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameter
   of_fluid.reynolds_number = parameters.fluid.reynolds_number;
   of_fluid.viscous_treatment = parameters.fluid.viscous_treatment;
   of_fluid.inertia = parameters.fluid.inertia;
-  of_fluid.velocity_solver = options_of(parameters.fluid.velocity_solver);
-  of_fluid.pressure_solver = options_of(parameters.fluid.pressure_solver);
+  of_fluid.velocity_solver = fluid::default_options(parameters.fluid.velocity_solver);
+  of_fluid.pressure_solver = fluid::default_options(parameters.fluid.pressure_solver);
   return of_fluid;
 }
 

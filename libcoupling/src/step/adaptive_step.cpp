@@ -6,11 +6,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "step/blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
-#include "step/immersed_vesicle.h"
 #include "phase_timer.h"
+#include "step/blow_up_guard.h"
+#include "step/immersed_vesicle.h"
 #include "step/step_control.h"
 #include "viscosity/viscosity_contrast.h"
 
@@ -36,10 +36,10 @@ void Simulation::take_adaptive_step() {
     ++rejected_steps_;
     take_back();
     if (step_control_->is_smallest(dt))
-      throw SimulationStopped(
-          fmt::format("a step of time.smallest_step = {:g} is still too long: {}", parameters_.time.smallest_step, failure),
-          "time.tolerance or limits too small, or the mesh too coarse for what the vesicle does "
-          "(more mesh.latitudes)");
+      throw SimulationStopped(fmt::format("a step of time.smallest_step = {:g} is still too long: {}",
+                                          parameters_.time.smallest_step, failure),
+                              "time.tolerance or limits too small, or the mesh too coarse for what the vesicle does "
+                              "(more mesh.latitudes)");
   }
 }
 

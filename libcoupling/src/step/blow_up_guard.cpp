@@ -81,7 +81,8 @@ bool BlowUpGuard::suspects() const {
 }
 
 std::string blow_up_advice(const SimulationParameters& parameters, const Flow& flow) {
-  if (const double convection = stable_convection_step(parameters, flow); !parameters.time.adaptive && parameters.time.step > convection)
+  if (const double convection = stable_convection_step(parameters, flow);
+      !parameters.time.adaptive && parameters.time.step > convection)
     return fmt::format("the explicit convection is unstable for time.step above about {:.3g} near the walls: reduce it",
                        convection);
   if (const double longest = stable_bending_step(parameters); parameters.time.step > longest)
@@ -89,7 +90,7 @@ std::string blow_up_advice(const SimulationParameters& parameters, const Flow& f
         "bending is too fast for the step: a shape far from rest relaxes at a rate of 1/Ca: take time.step <= {:.3g}{}",
         longest,
         longest > parameters.time.smallest_step && !parameters.time.adaptive ? " or time.adaptive = true"
-                                                                   : "; is membrane.capillary_number meant?");
+                                                                             : "; is membrane.capillary_number meant?");
   const std::string mesh = "the mesh is too coarse for the shape (more mesh.latitudes) or the vesicle too deflated";
   const double limit = parameters.stable_tension_number();
   if (std::isfinite(limit))

@@ -7,8 +7,9 @@
 namespace vesiflow::coupling {
 
 ExternalForces::ExternalForces(const SimulationParameters& parameters, const fluid::Grid& grid,
-                               std::span<const std::unique_ptr<ImmersedVesicle>> vesicles)
-    : vesicles_(vesicles) {
+                               std::span<const std::unique_ptr<ImmersedVesicle>> vesicles,
+                               std::span<const MembraneForce> own)
+    : vesicles_(vesicles), own_(own) {
   const vesicle::Vector3 gravity(parameters.gravity.acceleration.data());
   for (const VesicleParameters& vesicle : parameters.vesicles) weights_.push_back(vesicle.density_difference * gravity);
   if (std::ranges::all_of(weights_, [](const vesicle::Vector3& weight) { return weight.isZero(0.0); }))
@@ -22,20 +23,23 @@ ExternalForces::ExternalForces(const SimulationParameters& parameters, const flu
     Eigen::Index largest = 0;
     for (const auto& v : vesicles_) largest = std::max(largest, v->membrane.positions().rows());
     repulsion_.emplace(
-        grid, RepulsionParameters{parameters.repulsion.range, parameters.repulsion.strength, parameters.repulsion.walls}, largest);
+        grid,
+        RepulsionParameters{parameters.repulsion.range, parameters.repulsion.strength, parameters.repulsion.walls},
+        largest);
   }
-  if (weights_.empty() && !repulsion_) return;
+  if (weights_.empty() && !repulsion_ && own_.empty()) return;
   for (const auto& v : vesicles_) {
     v->total_force.emplace(vesicle::VectorField::Zero(v->membrane.positions().rows(), 3));
     repelled_.push_back({&v->membrane.positions(), &v->membrane.surface().area_weight(), &*v->total_force});
   }
 }
 
-void ExternalForces::compute() {
+void ExternalForces::compute(double time) {
   for (std::size_t i = 0; i < repelled_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
     *v.total_force = v.membrane.force();
     if (!weights_.empty()) add_buoyancy(v.membrane.surface(), weights_[i], *v.total_force);
+    for (const MembraneForce& force : own_) force(time, i, v.membrane.surface(), *v.total_force);
   }
   if (repulsion_) repulsion_->add_forces(repelled_);
 }

@@ -34,7 +34,8 @@ vesicle::MembraneParameters membrane_parameters(const SimulationParameters& all,
   return membrane;
 }
 
-vesicle::Membrane make_membrane(const SimulationParameters& parameters, std::size_t i, const vesicle::MembraneState* start) {
+vesicle::Membrane make_membrane(const SimulationParameters& parameters, std::size_t i,
+                                const vesicle::MembraneState* start) {
   const int latitudes = parameters.latitudes(i);
   vesicle::Membrane membrane(start != nullptr ? start->positions : initial_markers(parameters.vesicles[i], latitudes),
                              latitudes, membrane_parameters(parameters, i));
@@ -52,13 +53,14 @@ int moving_degrees(const SimulationParameters& parameters, std::size_t i) {
   return degrees > 0 ? degrees : vesicle::two_thirds_degrees(parameters.latitudes(i));
 }
 
-ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const Flow& flow, std::size_t number, const fluid::Grid& grid,
-                                 const vesicle::MembraneState* start)
+ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const Flow& flow, std::size_t number,
+                                 const fluid::Grid& grid, const vesicle::MembraneState* start)
     : membrane(make_membrane(parameters, number, start)),
       transfer(grid, parameters.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
       motion(make_membrane_motion(parameters, flow, number, membrane)) {
   if (parameters.coupling.thickness_correction)
-    thickness_.emplace(membrane, parameters.coupling.kernel, parameters.spacing(), 0.5 * (1.0 + parameters.viscosity_ratio(number)));
+    thickness_.emplace(membrane, parameters.coupling.kernel, parameters.spacing(),
+                       0.5 * (1.0 + parameters.viscosity_ratio(number)));
   const Eigen::Index markers = membrane.positions().rows();
   velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
 }

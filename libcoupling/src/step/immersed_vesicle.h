@@ -10,8 +10,8 @@
 #include "coupling/simulation_parameters.h"
 #include "fluid/field.h"
 #include "membrane_motion.h"
-#include "thickness_correction.h"
 #include "step/velocity_noise.h"
+#include "thickness_correction.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {

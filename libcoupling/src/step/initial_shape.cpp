@@ -58,7 +58,8 @@ vesicle::VectorField initial_markers(const VesicleParameters& start, int latitud
 }
 
 void check_apart(const SimulationParameters& parameters) {
-  const fluid::Grid grid(parameters.domain.lower, parameters.domain.upper, parameters.domain.cells, parameters.domain.periodic);
+  const fluid::Grid grid(parameters.domain.lower, parameters.domain.upper, parameters.domain.cells,
+                         {.periodic = parameters.domain.periodic});
   std::vector<vesicle::VectorField> markers;
   std::vector<vesicle::Surface> surfaces;
   for (std::size_t i = 0; i < parameters.vesicles.size(); ++i) {
@@ -77,8 +78,8 @@ void check_apart(const SimulationParameters& parameters) {
         const bool is_itself = a == b && shift.isZero(0.0);
         if (is_itself || !(overlap(surfaces[a], markers[b], shift) || overlap(surfaces[b], markers[a], -shift))) return;
         const char* image = shift.isZero(0.0) ? "" : " (repeated along a periodic axis)";
-        throw ParameterError(fmt::format("vesicles.{} and vesicles.{}{} overlap; move one of them (centre){}", a,
-                                     b, image, a == b ? " or enlarge the box" : ""));
+        throw ParameterError(fmt::format("vesicles.{} and vesicles.{}{} overlap; move one of them (centre){}", a, b,
+                                         image, a == b ? " or enlarge the box" : ""));
       });
 }
 

@@ -7,16 +7,16 @@
 #include <limits>
 #include <stdexcept>
 
-#include "step/blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
-#include "step/each_vesicle.h"
-#include "step/external_forces.h"
 #include "fluid/operators.h"
-#include "step/immersed_vesicle.h"
 #include "implicit_step.h"
 #include "phase_timer.h"
+#include "step/blow_up_guard.h"
+#include "step/each_vesicle.h"
+#include "step/external_forces.h"
+#include "step/immersed_vesicle.h"
 #include "step/start_control.h"
 #include "step/step_control.h"
 #include "viscosity/viscosity_contrast.h"
@@ -30,7 +30,8 @@ const SimulationParameters& checked(const SimulationParameters& parameters, cons
 }
 
 std::unique_ptr<ViscosityContrast> contrast_of(const SimulationParameters& parameters) {
-  return parameters.has_viscosity_contrast() ? std::make_unique<ViscosityContrast>(parameters, grid_of(parameters)) : nullptr;
+  return parameters.has_viscosity_contrast() ? std::make_unique<ViscosityContrast>(parameters, grid_of(parameters))
+                                             : nullptr;
 }
 
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters, const ViscosityContrast* contrast) {
@@ -45,7 +46,7 @@ Simulation::Simulation(const SimulationParameters& parameters, const Flow& flow)
     : parameters_(checked(parameters, flow)),
       flow_(flow),
       contrast_(contrast_of(parameters_)),
-      fluid_(grid_of(parameters_), fluid_parameters_of(parameters_, contrast_.get()), flow.velocity, flow.steady) {
+      fluid_(grid_of(parameters_), fluid_parameters_of(parameters_, contrast_.get()), flow.velocity, flow.motion) {
   if (flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow.velocity(x, 0.0); });
   if (parameters_.domain.periodic[0]) fluid_.uniform_force()[0] = flow.driving_force;
@@ -58,8 +59,8 @@ Simulation::Simulation(const SimulationParameters& parameters, const Flow& flow)
     step_control_ = std::make_unique<StepControl>(parameters_, flow_);
   else if (parameters_.follows_shape())
     start_control_ = std::make_unique<StartControl>();
-  guard_ = std::make_unique<BlowUpGuard>(parameters_,
-                                         flow.greatest_speed.value_or(std::numeric_limits<double>::infinity()));
+  guard_ =
+      std::make_unique<BlowUpGuard>(parameters_, flow.greatest_speed.value_or(std::numeric_limits<double>::infinity()));
   plan_last_step();
   for (auto& v : vesicles_) v->interpolate(time_step(), fluid_.velocity());
 }
@@ -75,8 +76,20 @@ void Simulation::make_vesicles() {
     const vesicle::MembraneState* membrane = start_ ? &start_->membranes[i] : nullptr;
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(parameters_, flow_, i, fluid_.grid(), membrane));
   }
-  external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_);
-  if (parameters_.time.markers == MarkerMotion::implicit) implicit_step_ = std::make_unique<ImplicitStep>(parameters_, vesicles_);
+  external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_, own_forces_);
+  if (parameters_.time.markers == MarkerMotion::implicit)
+    implicit_step_ = std::make_unique<ImplicitStep>(parameters_, vesicles_);
+}
+
+void Simulation::add_force(MembraneForce force) {
+  if (!force) throw std::invalid_argument("add_force: there is no function to call");
+  own_forces_.push_back(std::move(force));
+  external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_, own_forces_);
+}
+
+void Simulation::set_fluid_force(FluidForce force) {
+  fluid_force_ = std::move(force);
+  fluid_.force().fill(0.0);
 }
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {
@@ -146,8 +159,8 @@ bool Simulation::finished() const {
 
 void Simulation::plan_last_step() {
   constexpr double round_off = 1e-6;  // of a step
-  last_step_ =
-      steps() + static_cast<long>(std::max(0.0, std::ceil((parameters_.time.end - time()) / parameters_.time.step - round_off)));
+  last_step_ = steps() + static_cast<long>(std::max(
+                             0.0, std::ceil((parameters_.time.end - time()) / parameters_.time.step - round_off)));
 }
 
 void Simulation::set_time_step(double dt) {

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "step/blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
+#include "implicit_step.h"
+#include "phase_timer.h"
+#include "step/blow_up_guard.h"
 #include "step/each_vesicle.h"
 #include "step/external_forces.h"
 #include "step/immersed_vesicle.h"
-#include "implicit_step.h"
-#include "phase_timer.h"
 #include "step/start_control.h"
 #include "step/step_control.h"
 #include "viscosity/viscosity_contrast.h"
@@ -72,6 +72,7 @@ void Simulation::spread_forces() {
   {
     const PhaseTimer timer(phases_.spread);
     for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
+    if (fluid_force_) put_fluid_force();
   }
   {
     const PhaseTimer timer(phases_.membrane);
@@ -79,7 +80,7 @@ void Simulation::spread_forces() {
   }
   if (external_forces_->any()) {
     const PhaseTimer timer(phases_.external_forces);
-    external_forces_->compute();
+    external_forces_->compute(time());
   }
   const PhaseTimer timer(phases_.spread);
   for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
@@ -92,6 +93,19 @@ void Simulation::spread_forces() {
       v->transfer.spread(*owed, v->membrane.surface().area_weight(), fluid_.force());
   }
   if (!fluid_.grid().has_walls()) hold_the_fluid();
+}
+
+// In the place of what is in the field of forces: markers add theirs.
+void Simulation::put_fluid_force() {
+  const auto put = [this](auto& component, int axis) {
+    for (int k = 0; k < component.extent(2); ++k)
+      for (int j = 0; j < component.extent(1); ++j)
+        for (int i = 0; i < component.extent(0); ++i)
+          component(i, j, k) = fluid_force_(component.position(i, j, k), time())[static_cast<std::size_t>(axis)];
+  };
+  put(fluid_.force().x, 0);
+  put(fluid_.force().y, 1);
+  put(fluid_.force().z, 2);
 }
 
 // Without walls nothing takes up a total force, and all would accelerate for ever: the mean pressure gradient balances it.

@@ -1,11 +1,11 @@
 // The steps of a start: whole, or in parts where shapes start far from rest.
 #include <algorithm>
 
-#include "step/blow_up_guard.h"
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
-#include "step/immersed_vesicle.h"
 #include "phase_timer.h"
+#include "step/blow_up_guard.h"
+#include "step/immersed_vesicle.h"
 #include "step/start_control.h"
 #include "viscosity/viscosity_contrast.h"
 

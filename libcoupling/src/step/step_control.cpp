@@ -22,7 +22,8 @@ double first_step(const SimulationParameters& parameters, const Flow& flow) {
   const double stable = 0.5 * parameters.stable_tension_number();
   const double shortening =
       std::isfinite(stable) ? std::min(1.0, stable / std::max(parameters.tension_number(), stable)) : 1.0;
-  return std::max(parameters.time.smallest_step, std::min(parameters.time.step * shortening, stable_convection_step(parameters, flow)));
+  return std::max(parameters.time.smallest_step,
+                  std::min(parameters.time.step * shortening, stable_convection_step(parameters, flow)));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TransferAxis transfer_axis(const fluid::Grid& grid, int axis, bool across, Delta
     throw std::invalid_argument("marker transfer: " + std::to_string(grid.cells[axis]) + " cells along " +
                                 axis_name[axis] + "; the kernel \"" + std::string(coupling::name(kernel)) +
                                 "\" needs at least " + std::to_string(width) + " on a periodic or mirrored axis");
-  return {grid.cells[axis],     periodic, mirrored, !across, grid.lower[axis], 1.0 / grid.spacing(axis),
+  return {grid.cells[axis],      periodic, mirrored, !across, grid.lower[axis], 1.0 / grid.spacing(axis),
           wall_clearance(kernel)};
 }
 

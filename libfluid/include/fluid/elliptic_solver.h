@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "fluid/elliptic_problem.h"
@@ -130,9 +131,9 @@ using SolverOptions = std::variant<FftOptions, CholmodOptions, PcgOptions, AutoO
 
 // The solvers by name, for who reads or writes it: scenes, command lines, reports.
 enum class SolverKind { automatic, fft, cholmod, pcg };
-inline constexpr std::array<const char*, 4> solver_names{"auto", "fft", "cholmod", "pcg"};  // by SolverKind
+inline constexpr std::array<std::string_view, 4> solver_names{"auto", "fft", "cholmod", "pcg"};  // by SolverKind
 constexpr const char* name(SolverKind kind) {
-  return solver_names[static_cast<std::size_t>(kind)];
+  return solver_names[static_cast<std::size_t>(kind)].data();  // of literals
 }
 // A solver of a kind with the options it has by default.
 SolverOptions default_options(SolverKind kind);

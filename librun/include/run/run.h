@@ -14,6 +14,12 @@ namespace vesiflow::run {
 /// checkpoint.
 enum class RunOutput { diagnostics, vesicle_snapshot, fluid_snapshot, checkpoint };
 
+/// A number of a program's own, of each vesicle: a column of diagnostics.csv after those of docs/results.md. What is not finite is left empty.
+struct OwnDiagnostic {
+  std::string name;  ///< of the column: letters, digits and underscores, and none that is there already
+  std::function<double(SceneSimulation& simulation, std::size_t vesicle)> value;
+};
+
 /// Where and how a simulation is run to its end.
 struct RunOptions {
   std::string program = "vesiflow";                                ///< written into summary.json
@@ -26,6 +32,7 @@ struct RunOptions {
   /// The program and the options to keep, as words. A run that ends early says this command with what continues it:
   /// --restart CHECKPOINT --out DIRECTORY. Where it is empty, only the checkpoint is named.
   std::vector<std::string> command = {};
+  std::vector<OwnDiagnostic> diagnostics = {};
   /// Called after each step with the state that it has led to, before anything of that state is written. It is not called before the
   /// first step, nor for a step that could not be taken.
   std::function<void(const SceneSimulation&)> after_step = {};

@@ -12,8 +12,8 @@ class SceneSimulation : public coupling::Simulation {
   /// \throws SceneError for a scene that cannot be computed
   explicit SceneSimulation(const Scene& scene);
   /// The same with a boundary velocity of one's own instead of the scene's flow (flow.type becomes "custom"); it is also
-  /// the initial velocity if flow.start = "flow". `steady` says that it does not depend on time.
-  SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady);
+  /// the initial velocity if flow.start = "flow". `motion` says whether it depends on time.
+  SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow, fluid::WallMotion motion);
   /// The same with all that a flow can say; its `start` is the scene's.
   SceneSimulation(const Scene& scene, const coupling::Flow& flow);
 

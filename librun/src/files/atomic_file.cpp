@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <system_error>
 
-#include "run/errors.h"
 #include "files/descriptor.h"
+#include "run/errors.h"
 #include "system_message.h"
 
 namespace vesiflow::run {

@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "files/atomic_file.h"
-#include "run/errors.h"
 #include "files/hdf5_file.h"
+#include "files/state_checksum.h"
+#include "run/errors.h"
 #include "scene/scene_file.h"
 #include "scene/scene_keys.h"
-#include "files/state_checksum.h"
 
 namespace vesiflow::run {
 namespace {
@@ -70,7 +70,7 @@ void write_vesicle(Hdf5File& file, const std::string& group, const coupling::Ves
 }
 
 coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
-                          const std::filesystem::path& path) {
+                                    const std::filesystem::path& path) {
   coupling::VesicleState state;
   auto& m = state.membrane;
   m.positions.resize(markers, 3);
@@ -105,7 +105,8 @@ void write_start(Hdf5File& file, const coupling::Start& start) {
     write_vesicle(file, start_name(i), {start.membranes[i], {}, 0});
 }
 
-std::shared_ptr<const coupling::Start> read_start(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
+std::shared_ptr<const coupling::Start> read_start(const Hdf5File& file, const Scene& scene,
+                                                  const std::filesystem::path& path) {
   if (!file.exists("/start")) return nullptr;
   auto start = std::make_shared<coupling::Start>();
   start->run = file.read_text("/start", "run");

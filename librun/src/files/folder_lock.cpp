@@ -19,8 +19,8 @@
 #include <thread>
 
 #include "files/atomic_file.h"
-#include "run/errors.h"
 #include "files/descriptor.h"
+#include "run/errors.h"
 #include "system_message.h"
 
 namespace vesiflow::run {

@@ -1,6 +1,6 @@
 // Stands in for hdf5_file.cpp in builds without HDF5.
-#include "run/errors.h"
 #include "files/hdf5_file.h"
+#include "run/errors.h"
 
 namespace vesiflow::run {
 

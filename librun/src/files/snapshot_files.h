@@ -1,7 +1,7 @@
 #pragma once
 
-#include "run/scene_simulation.h"
 #include "files/snapshot_series.h"
+#include "run/scene_simulation.h"
 
 namespace vesiflow::run {
 

@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "files/atomic_file.h"
-#include "run/errors.h"
 #include "files/file_error.h"
+#include "run/errors.h"
 
 namespace vesiflow::run {
 namespace {

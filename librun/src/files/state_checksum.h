@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "run/scene.h"
 #include "coupling/simulation.h"
+#include "run/scene.h"
 
 namespace vesiflow::run {
 

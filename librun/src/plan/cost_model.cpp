@@ -153,9 +153,9 @@ class CostModel {
   }
 
   // Seconds of solves of that many components, and whether they are rough.
-  std::pair<double, bool> solve(coupling::FluidSolver choice, double by_fft, double components) const {
-    if (choice == coupling::FluidSolver::pcg) return {pcg_over_fft * by_fft, true};
-    if (choice == coupling::FluidSolver::cholmod) return {nanosecond * cholmod_unknown * components * size_.cells, true};
+  std::pair<double, bool> solve(fluid::SolverKind choice, double by_fft, double components) const {
+    if (choice == fluid::SolverKind::pcg) return {pcg_over_fft * by_fft, true};
+    if (choice == fluid::SolverKind::cholmod) return {nanosecond * cholmod_unknown * components * size_.cells, true};
     return {by_fft, false};
   }
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <set>
 
-#include "plan/available_memory.h"
-#include "run/plan.h"
 #include "coupling/simulation.h"
+#include "plan/available_memory.h"
 #include "plan/viscosity_plan.h"
+#include "run/plan.h"
 
 namespace vesiflow::run {
 namespace {

@@ -9,21 +9,21 @@
 #include <tuple>
 #include <utility>
 
-#include "scene/accuracy.h"
-#include "plan/cost_model.h"
 #include "coupling/flow.h"
+#include "coupling/initial_shape.h"
 #include "coupling/overlap.h"
 #include "coupling/simulation.h"
+#include "coupling/validity.h"
 #include "fluid/elliptic_solver.h"
-#include "coupling/initial_shape.h"
+#include "plan/cost_model.h"
 #include "plan/memory_plan.h"
 #include "plan/plan_totals.h"
 #include "plan/recommended_region.h"
+#include "plan/viscosity_plan.h"
+#include "scene/accuracy.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
-#include "coupling/validity.h"
-#include "plan/viscosity_plan.h"
 
 namespace vesiflow::run {
 namespace {
@@ -83,7 +83,9 @@ void describe_cells_across(Plan& plan, const Scene& scene) {
   for (const coupling::VesicleParameters& vesicle : scene.vesicles) smallest = std::min(smallest, vesicle.radius);
   const double across = 2.0 * smallest / scene.spacing();
   plan.line("cells across a vesicle", "{:.1f}{}", across,
-            across < coupling::validity::fewest_cells_across ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %" : "");
+            across < coupling::validity::fewest_cells_across
+                ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %"
+                : "");
 }
 
 // Of the start, between membranes and to the walls.
@@ -99,7 +101,9 @@ void describe_distances(Plan& plan, const Scene& scene, const std::vector<vesicl
     const double in_spacings = distance / scene.spacing();
     if (std::isfinite(distance))
       plan.line(label, "{:.3g} at the start, {:.2g} h{}", distance, in_spacings,
-                in_spacings < coupling::validity::least_resolved_gap ? "  <- WARNING: the fluid in between is not resolved below 2 h" : "");
+                in_spacings < coupling::validity::least_resolved_gap
+                    ? "  <- WARNING: the fluid in between is not resolved below 2 h"
+                    : "");
   };
   describe("between membranes", std::ranges::min(coupling::nearest_distances(grid, pointers)));
   describe("to the walls", to_walls);
@@ -116,7 +120,8 @@ void describe_deflation(Plan& plan, const Scene& scene, const std::vector<vesicl
     vesicle::Surface surface(scene.latitudes(i));
     surface.update(markers[i]);
     const double deflated = vesicle::reduced_volume(surface.area(), surface.volume());
-    if (deflated < least) std::tie(least, capillary_number) = std::pair{deflated, coupling::own_capillary_number(scene, i)};
+    if (deflated < least)
+      std::tie(least, capillary_number) = std::pair{deflated, coupling::own_capillary_number(scene, i)};
   }
   const bool is_fast = scene.flow.type != FlowType::rest && capillary_number >= fast_flow;
   plan.line("reduced volume", "{:.3g} at the start{}", least,
@@ -207,9 +212,9 @@ std::string describe_bending(const Scene& scene) {
 }
 
 // The solver of a problem, and why if it was left to choose.
-std::string describe_solver(const fluid::EllipticProblem& problem, coupling::FluidSolver choice) {
-  if (choice != coupling::FluidSolver::automatic) return std::string(name(choice));
-  const fluid::SolverChoice chosen = fluid::choose_solver(problem, {});
+std::string describe_solver(const fluid::EllipticProblem& problem, fluid::SolverKind choice) {
+  if (choice != fluid::SolverKind::automatic) return std::string(name(choice));
+  const fluid::ChosenSolver chosen = fluid::choose_solver(problem, {});
   return fmt::format("{} ({})", fluid::name(chosen.options), chosen.reason);
 }
 
@@ -259,11 +264,14 @@ std::string describe_markers(const Scene& scene) {
 }
 
 std::string describe_kernel(coupling::DeltaKernel kernel) {
-  const int normal = coupling::support_width(kernel, coupling::Direction::normal), across = coupling::support_width(kernel, coupling::Direction::tangential);
+  const int normal = coupling::support_width(kernel, coupling::Direction::normal),
+            across = coupling::support_width(kernel, coupling::Direction::tangential);
   const std::string points = normal == across ? fmt::format("{}", normal)
                                               : fmt::format("{} along a component and {} across it", normal, across);
   return fmt::format("delta function \"{}\", points {}{}", name(kernel), points,
-                     coupling::interpolation(kernel) == coupling::Interpolation::divergence_preserving ? ", preserving divergence" : "");
+                     coupling::interpolation(kernel) == coupling::Interpolation::divergence_preserving
+                         ? ", preserving divergence"
+                         : "");
 }
 
 void describe_step(Plan& plan, const Scene& scene) {

@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
-#include "plan/available_memory.h"
 #include "coupling/flow.h"
-#include "plan/memory_plan.h"
 #include "coupling/validity.h"
+#include "plan/available_memory.h"
+#include "plan/memory_plan.h"
 
 namespace vesiflow::run {
 

@@ -51,11 +51,11 @@ double fluid_bytes(const Scene& scene, const fluid::Grid& grid, bool is_variable
 }
 
 std::string describe_solve(const Scene& scene, const fluid::Grid& grid, double greatest, bool is_coupled) {
-  const coupling::FluidSolver choice = scene.fluid.velocity_solver;
-  if (choice != coupling::FluidSolver::automatic) return std::string(name(choice));
+  const fluid::SolverKind choice = scene.fluid.velocity_solver;
+  if (choice != fluid::SolverKind::automatic) return std::string(name(choice));
   if (is_coupled) return "cholmod or pcg with fft, whichever is estimated to be faster in the first step";
   const auto problem = fluid::EllipticProblem::velocity(grid, fluid::EllipticForm::laplacian, 1.0, greatest);
-  const fluid::SolverChoice chosen = fluid::choose_solver(problem, {});
+  const fluid::ChosenSolver chosen = fluid::choose_solver(problem, {});
   return fmt::format("{} ({})", fluid::name(chosen.options), chosen.reason);
 }
 
@@ -68,7 +68,8 @@ std::string describe_treatment(const Scene& scene, double least, double greatest
           "explicit (paper): {:g} Lap u* + div((mu - {:g})(grad u + grad u^T)), an error of ratio x step", greatest,
           greatest);
     case ViscousTreatment::implicit: {
-      const bool is_risky = scene.time.markers == coupling::MarkerMotion::shape_following && greatest / least > coupling::validity::quiet_implicit_contrast;
+      const bool is_risky = scene.time.markers == coupling::MarkerMotion::shape_following &&
+                            greatest / least > coupling::validity::quiet_implicit_contrast;
       return fmt::format("implicit: all three components in one solve{}",
                          is_risky
                              ? "; <- WARNING: unstable with time.markers = \"shape_following\" at this contrast but "

@@ -12,20 +12,20 @@
 #include <new>
 
 #include "files/atomic_file.h"
-#include "run/checkpoint.h"
-#include "run/errors.h"
-#include "run/start_from.h"
 #include "files/file_error.h"
 #include "files/folder_lock.h"
 #include "files/hdf5_file.h"
+#include "files/snapshot_files.h"
 #include "phase_timer.h"
+#include "run/checkpoint.h"
+#include "run/errors.h"
 #include "run/progress.h"
-#include "files/results.h"
+#include "run/results.h"
 #include "run/run_status.h"
 #include "run/shell_words.h"
-#include "files/snapshot_files.h"
-#include "standard_streams.h"
+#include "run/start_from.h"
 #include "run/stop_request.h"
+#include "standard_streams.h"
 
 namespace vesiflow::run {
 namespace {
@@ -182,7 +182,7 @@ void Run::start() {
     }
   }
   if (options_.start_from) write_checkpoint(directory_ / "start.h5", simulation_);
-  table_.emplace(directory_);
+  table_.emplace(directory_, simulation_.vesicle_count(), options_.diagnostics);
   vesicle_snapshots_.emplace(directory_, vesicle_snapshots(simulation_));
   fluid_snapshots_.emplace(directory_, fluid_snapshots(simulation_));
   if (own) rewind_files();

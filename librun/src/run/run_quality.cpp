@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/recommended_region.h"
 #include "coupling/overlap.h"
 #include "coupling/validity.h"
+#include "plan/recommended_region.h"
 
 namespace vesiflow::run {
 namespace {
@@ -16,9 +16,9 @@ namespace validity = coupling::validity;
 using validity::settling_steps;
 
 constexpr std::array<double, RunQuality::quantities> limits{
-    validity::warned_area_error,          validity::warned_volume_error,  validity::warned_local_area_error,
-    validity::warned_surface_divergence,  validity::warned_spectrum_tail, validity::warned_unresolved_bending,
-    validity::warned_velocity_noise,      validity::warned_courant_number};
+    validity::warned_area_error,         validity::warned_volume_error,  validity::warned_local_area_error,
+    validity::warned_surface_divergence, validity::warned_spectrum_tail, validity::warned_unresolved_bending,
+    validity::warned_velocity_noise,     validity::warned_courant_number};
 
 constexpr std::array<const char*, RunQuality::quantities> names{
     "the relative error of an area",
@@ -114,8 +114,8 @@ void RunQuality::observe(SceneSimulation& simulation, std::span<const vesicle::D
   const fluid::Grid& grid = simulation.fluid().grid();
   for (std::size_t i = 0; i < all.size(); ++i) {
     errors_.membrane_gap = std::min(errors_.membrane_gap, distances[i] / scene_.spacing());
-    errors_.wall_gap =
-        std::min(errors_.wall_gap, coupling::distance_to_walls(grid, simulation.membrane(i).positions()) / scene_.spacing());
+    errors_.wall_gap = std::min(
+        errors_.wall_gap, coupling::distance_to_walls(grid, simulation.membrane(i).positions()) / scene_.spacing());
     const vesicle::Diagnostics& d = all[i];
     raise(area, i, d.area_error, simulation);
     raise(volume, i, d.volume_error, simulation);
@@ -134,7 +134,8 @@ RunQuality::SceneNumbers RunQuality::scene_numbers() const {
   return {.tension_number = scene_.tension_number(),
           .stable_tension_number = scene_.stable_tension_number(),
           .convection_step_ratio = longest / stable_convection_step(scene_),
-          .grid_error = (scene_.coupling.thickness_correction ? validity::corrected_error_per_spacing : validity::error_per_spacing) *
+          .grid_error = (scene_.coupling.thickness_correction ? validity::corrected_error_per_spacing
+                                                              : validity::error_per_spacing) *
                         scene_.spacing() / smallest_radius};
 }
 

@@ -53,7 +53,8 @@ class RunQuality {
   /// After every step: what is at hand without measuring.
   void observe_step(const SceneSimulation& simulation);
   /// With what measure() and coupling::nearest_distances() have given.
-  void observe(SceneSimulation& simulation, std::span<const vesicle::Diagnostics> all, std::span<const double> distances);
+  void observe(SceneSimulation& simulation, std::span<const vesicle::Diagnostics> all,
+               std::span<const double> distances);
 
   const Errors& errors() const { return errors_; }
   /// Goes back to errors of before: what came later did not happen.

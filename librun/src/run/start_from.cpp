@@ -6,9 +6,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "fluid/resampling.h"
 #include "run/checkpoint.h"
 #include "run/errors.h"
-#include "fluid/resampling.h"
 #include "vesicle/resampling.h"
 #include "vesicle/sphere_grid.h"
 

@@ -4,11 +4,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "files/atomic_file.h"
 #include "build_info.h"
-#include "files/results.h"
+#include "files/atomic_file.h"
+#include "run/results.h"
+#include "run/vesicle_record.h"
 #include "scene/scene_keys.h"
-#include "files/vesicle_record.h"
 
 namespace vesiflow::run {
 namespace {
@@ -28,7 +28,8 @@ Json parameters_of(const Scene& scene) {
   return all;
 }
 
-Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions, const coupling::MarkerStatistics& markers) {
+Json vesicle_of(const vesicle::Diagnostics& diagnostics, long redistributions,
+                const coupling::MarkerStatistics& markers) {
   Json entry;
   visit_record(diagnostics, [&](std::string_view name, const double* values, int length) {
     if (length == 1) {

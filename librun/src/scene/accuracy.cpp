@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "run/errors.h"
 #include "coupling/flow.h"
 #include "coupling/validity.h"
+#include "run/errors.h"
 
 namespace vesiflow::run {
 namespace {
@@ -17,7 +17,7 @@ struct Settings {
   double cells_per_radius, latitudes_per_cells, steps_per_rate;
 };
 
-constexpr double stiff = 9000.0;                         // strains below 1e-3 where stresses are of order one
+constexpr double stiff = 9000.0;  // strains below 1e-3 where stresses are of order one
 constexpr double largest_reynolds_number = coupling::validity::largest_reynolds_number_with_thickness_correction;
 constexpr double smallest_capillary_number = coupling::validity::preset_least_capillary_number;
 constexpr double smallest_reduced_volume = coupling::validity::preset_least_reduced_volume - 1e-12;

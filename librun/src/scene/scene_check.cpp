@@ -91,8 +91,9 @@ void check_scene(const Scene& scene, const coupling::Flow& flow, const std::stri
 
 void check_scene(const Scene& scene, const std::string& name) {
   if (scene.flow.type == FlowType::custom)
-    return check_scene(scene, coupling::custom_flow([](const fluid::Vector3&, double) { return fluid::Vector3{}; }, true),
-                       name);
+    return check_scene(
+        scene, coupling::custom_flow([](const fluid::Vector3&, double) { return fluid::Vector3{}; },
+                                                   fluid::WallMotion::steady), name);
   check_scene(scene, flow_of(scene), name);
 }
 

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "scene/accuracy.h"
 #include "run/errors.h"
-#include "scene/scene_surfaces.h"
+#include "scene/accuracy.h"
 #include "scene/key_suggestion.h"
 #include "scene/scene_keys.h"
 #include "scene/scene_reader.h"
+#include "scene/scene_surfaces.h"
 
 namespace vesiflow::run {
 namespace {

@@ -160,7 +160,8 @@ std::optional<bool> SceneReader::checked_boolean(const Given& given, const toml:
   return std::nullopt;
 }
 
-std::optional<int> SceneReader::checked_integer(const Given& given, const toml::node& part, const coupling::Range& range) {
+std::optional<int> SceneReader::checked_integer(const Given& given, const toml::node& part,
+                                                const coupling::Range& range) {
   if (!part.is_integer()) {
     refuse(given, fmt::format("must be a whole number {}", range.describe()));
     return std::nullopt;

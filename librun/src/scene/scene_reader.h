@@ -22,7 +22,8 @@ class SceneReader final : public KeyVisitor {
   void integer(std::string_view key, int& value, const coupling::Range& range) override;
   void optional_integer(std::string_view key, std::optional<int>& value, const coupling::Range& range) override;
   void vector(std::string_view key, std::array<double, 3>& value, const coupling::Range& range) override;
-  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const coupling::Range& range) override;
+  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
+                       const coupling::Range& range) override;
   void boolean(std::string_view key, bool& value) override;
   void booleans(std::string_view key, std::array<bool, 3>& value) override;
   void cells(std::string_view key, std::array<int, 3>& value, const coupling::Range& range) override;

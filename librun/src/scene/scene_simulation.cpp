@@ -25,8 +25,9 @@ const Scene& checked(const Scene& scene, const coupling::Flow& flow) {
 
 SceneSimulation::SceneSimulation(const Scene& scene) : SceneSimulation(scene, flow_of(scene), scene.flow.type) {}
 
-SceneSimulation::SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady)
-    : SceneSimulation(scene, coupling::custom_flow(flow, steady)) {}
+SceneSimulation::SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow,
+                                 fluid::WallMotion motion)
+    : SceneSimulation(scene, coupling::custom_flow(flow, motion)) {}
 
 SceneSimulation::SceneSimulation(const Scene& scene, const coupling::Flow& flow)
     : SceneSimulation(scene, started(flow, scene), FlowType::custom) {}

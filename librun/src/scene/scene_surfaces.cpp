@@ -47,7 +47,8 @@ void load_surfaces(Scene& scene, const std::string& name) {
     if (!file.file) continue;
     const std::string key = fmt::format("{}: vesicles.{}.file", name, i);
     try {
-      if (vesicle.shape == coupling::Shape::coefficients) vesicle.surface = vesicle::read_surface_coefficients(*file.file);
+      if (vesicle.shape == coupling::Shape::coefficients)
+        vesicle.surface = vesicle::read_surface_coefficients(*file.file);
       if (vesicle.shape == coupling::Shape::mesh)
         vesicle.surface = meshes.fit(*file.file, file.fit_degrees, scene.latitudes(i), key);
     } catch (const std::invalid_argument& error) {

@@ -57,7 +57,8 @@ class Lister : public KeyVisitor {
   void vector(std::string_view key, std::array<double, 3>& value, const coupling::Range& range) override {
     show(key, array_of(value), range.describe());
   }
-  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value, const coupling::Range& range) override {
+  void optional_vector(std::string_view key, std::optional<std::array<double, 3>>& value,
+                       const coupling::Range& range) override {
     show(key, value ? array_of(*value) : "", range.describe());
   }
   void boolean(std::string_view key, bool& value) override { show(key, fmt::format("{}", value), "true, false"); }
@@ -73,7 +74,8 @@ class Lister : public KeyVisitor {
   void choice(std::string_view key, int& value, std::span<const std::string_view> names) override {
     const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
     if (value < 0 || value >= static_cast<int>(names.size()))
-      throw SceneError(fmt::format("{} is value {} of an enumeration that has {}: {}", key, value, names.size(), allowed));
+      throw SceneError(
+          fmt::format("{} is value {} of an enumeration that has {}: {}", key, value, names.size(), allowed));
     show(key, toml_string(names[static_cast<std::size_t>(value)]), allowed);
   }
 

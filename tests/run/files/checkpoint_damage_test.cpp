@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "files/hdf5_file.h"
 #include "run/checkpoint.h"
 #include "run/errors.h"
-#include "files/hdf5_file.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::run {
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 // The smallest that has every data set a checkpoint can have, but that of a surface from a file.
 Scene tiny_scene() {
   return coupling::small_scene({"domain.cells=8", "mesh.latitudes=8", "mesh.tangential_degrees=6", "time.step=1/32",
-                      "time.adaptive=true", "time.markers=strain_relaxation", "membrane.integral_rate=2",
-                      "membrane.g=1"});
+                                "time.adaptive=true", "time.markers=strain_relaxation", "membrane.integral_rate=2",
+                                "membrane.g=1"});
 }
 
 std::string bytes_of(const fs::path& file) {

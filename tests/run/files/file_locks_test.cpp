@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "run/errors.h"
-#include "run/run.h"
 #include "files/descriptor.h"
 #include "files/hdf5_file.h"
+#include "run/errors.h"
+#include "run/run.h"
 #include "support/small_scene.h"
 
 namespace {

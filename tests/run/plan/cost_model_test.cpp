@@ -110,7 +110,9 @@ TEST(CostModel, SaysWhatIsRough) {
 // Twice as often, twice the share, nearly: output is a small part here.
 TEST(CostModel, OutputCostsWhatItsIntervalSays) {
   const auto share = [](const char* every) {
-    return costs_of(coupling::small_scene({std::string("output.checkpoint_every=") + every})).at("output_checkpoint").seconds;
+    return costs_of(coupling::small_scene({std::string("output.checkpoint_every=") + every}))
+        .at("output_checkpoint")
+        .seconds;
   };
   EXPECT_NEAR(share("0.05") / share("0.1"), 2.0, 1e-9);
   EXPECT_NEAR(share("1e-6") * 48, share("1/96") * 48, 1e-12);  // no more than once in a step

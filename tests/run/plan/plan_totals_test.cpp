@@ -34,7 +34,8 @@ TEST(PlanTotals, EndThePlan) {
 }
 
 TEST(PlanTotals, WarnsOfADiskThatIsTooSmall) {
-  const Scene large = coupling::small_scene({"domain.cells=2048", "time.step=1e-3", "time.end=1e4", "output.fluid_every=0.01"});
+  const Scene large =
+      coupling::small_scene({"domain.cells=2048", "time.step=1e-3", "time.end=1e4", "output.fluid_every=0.01"});
   EXPECT_NE(describe_totals(large, 1, ".").find("<- WARNING: too little"), std::string::npos);
   EXPECT_EQ(describe_totals(coupling::small_scene(), 1, ".").find("WARNING"), std::string::npos);
 }

@@ -15,11 +15,11 @@
 #include <sstream>
 #include <string>
 
+#include "files/hdf5_file.h"
 #include "run/checkpoint.h"
 #include "run/errors.h"
 #include "run/plan.h"
 #include "run/run.h"
-#include "files/hdf5_file.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::run {
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 Scene short_scene() {
   return coupling::small_scene({"domain.cells=16", "mesh.latitudes=8", "mesh.tangential_degrees=8", "membrane.g=2",
-                      "time.end='2/96'", "output.diagnostics_every='1/96'", "membrane.upsampling=1.5"});
+                                "time.end='2/96'", "output.diagnostics_every='1/96'", "membrane.upsampling=1.5"});
 }
 
 std::string text_of(const fs::path& file) {

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "coupling/marker_integrator.h"
+#include "files/folder_lock.h"
 #include "run/checkpoint.h"
 #include "run/errors.h"
-#include "coupling/marker_integrator.h"
 #include "run/plan.h"
-#include "files/folder_lock.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::run {
@@ -592,6 +592,36 @@ TEST_F(RunTest, EndsWithWhatACallbackThrows) {
   options.before_output = [](const SceneSimulation&, RunOutput) { throw std::out_of_range("of the host"); };
   SceneSimulation another(small_scene({"time.end=0.1"}));
   EXPECT_THROW(run(another, options), std::out_of_range);
+}
+
+TEST_F(RunTest, WritesDiagnosticsOfAProgramsOwn) {
+  const Scene scene = small_scene({"time.end=0.1"});
+  RunOptions options;
+  options.directory = at("run");
+  options.quiet = true;
+  options.diagnostics = {{"highest", [](SceneSimulation& simulation, std::size_t i) {
+                            return simulation.membrane(i).positions().col(2).maxCoeff();
+                          }}};
+  SceneSimulation simulation(scene);
+  run(simulation, options);
+  std::istringstream rows(text_of(at("run") / "diagnostics.csv"));
+  std::string header, row, last;
+  std::getline(rows, header);
+  EXPECT_TRUE(header.ends_with(",highest")) << header;
+  while (std::getline(rows, row)) last = row;
+  EXPECT_NEAR(std::stod(last.substr(last.rfind(',') + 1)), simulation.membrane(0).positions().col(2).maxCoeff(), 1e-9);
+
+  SceneSimulation longer(small_scene({"time.end=0.2"}));
+  RunOptions without = options;
+  without.diagnostics.clear();
+  without.checkpoint = at("run") / "checkpoint.h5";
+  EXPECT_THROW(run(longer, without), SceneError);
+  for (const char* name : {"", "time", "a,b"}) {
+    RunOptions wrong = options;
+    wrong.diagnostics.front().name = name;
+    SceneSimulation again(scene);
+    EXPECT_THROW(run(again, wrong), SceneError) << name;
+  }
 }
 
 TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <string>
 
+#include "fluid/operators.h"
 #include "run/checkpoint.h"
 #include "run/errors.h"
 #include "run/run.h"
-#include "fluid/operators.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::run {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "run/errors.h"
 #include "coupling/simulation.h"
 #include "fluid/operators.h"
+#include "run/errors.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::run {
@@ -101,7 +101,7 @@ TEST(Flow, IsReachedFromRestInAPeriodicBox) {
   for (const std::string type : {"plane_poiseuille", "duct"}) {
     Scene scene = flow_scene(type, fast);
     const coupling::Flow flow = flow_of(scene);
-    fluid::NavierStokes fluid(grid_of(scene), fluid_parameters_of(scene), flow.velocity, flow.steady);
+    fluid::NavierStokes fluid(grid_of(scene), fluid_parameters_of(scene), flow.velocity, flow.motion);
     fluid.uniform_force()[0] = flow.driving_force;
     for (int k = 0; k < 40; ++k) fluid.step(0.01);
     const auto& u = fluid.velocity().x;

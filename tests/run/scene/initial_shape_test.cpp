@@ -198,7 +198,8 @@ TEST_F(InitialShapeTest, DegreesOfTheFitFollowFromTheMesh) {
 /// A shape that is not star-shaped starts a simulation like any other: it keeps its area and volume, its membrane hardly yields.
 TEST_F(InitialShapeTest, BowlsOfTrianglesCanBeSimulated) {
   write("shapes/a.off", bowl());
-  SceneSimulation simulation(scene_with("shape = \"mesh\"\nfile = \"shapes/a.off\"\n", {"membrane.capillary_number=1"}));
+  SceneSimulation simulation(
+      scene_with("shape = \"mesh\"\nfile = \"shapes/a.off\"\n", {"membrane.capillary_number=1"}));
   const vesicle::Surface& surface = simulation.membrane(0).surface();
   const double area = surface.area(), volume = surface.volume();
   EXPECT_NEAR(vesicle::reduced_volume(area, volume), 0.7685, 5e-3);

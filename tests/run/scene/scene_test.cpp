@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "run/errors.h"
 #include "coupling/marker_integrator.h"
+#include "run/errors.h"
 #include "run/plan.h"
 
 namespace vesiflow::run {

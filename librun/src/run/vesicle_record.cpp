@@ -1,4 +1,4 @@
-#include "files/vesicle_record.h"
+#include "run/vesicle_record.h"
 
 #include <numbers>
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "run/run.h"
-#include "run/scene_simulation.h"
 #include "run/run_quality.h"
+#include "run/scene_simulation.h"
 
 namespace vesiflow::run {
 
@@ -49,10 +49,10 @@ bool is_completed(const std::filesystem::path& directory, long steps);
 /// diagnostics.csv: one whole line per vesicle and time, appended at once. What a kill has left of a line is removed.
 class DiagnosticsTable {
  public:
-  explicit DiagnosticsTable(const std::filesystem::path& directory);
+  /// \throws SceneError for a name of `own` that is no name of a column, or is there already, and for a table with other columns
+  DiagnosticsTable(const std::filesystem::path& directory, std::size_t vesicles, std::vector<OwnDiagnostic> own);
   /// A row for each vesicle, of what measure() and coupling::nearest_distances() have given.
-  void write(const SceneSimulation& simulation, std::span<const vesicle::Diagnostics> all,
-             std::span<const double> distances);
+  void write(SceneSimulation& simulation, std::span<const vesicle::Diagnostics> all, std::span<const double> distances);
   /// Removes the rows after `step`: a restarted run writes them again.
   void rewind(long step);
   /// What a checkpoint counts on must not be lost with the power.
@@ -61,6 +61,8 @@ class DiagnosticsTable {
 
  private:
   std::filesystem::path file_;
+  std::vector<OwnDiagnostic> own_;
+  std::string columns_;
   long last_step_ = -1;
 };
 

@@ -1,10 +1,12 @@
-#include "files/results.h"
+#include "run/results.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -14,12 +16,12 @@
 #include <system_error>
 
 #include "files/atomic_file.h"
-#include "run/errors.h"
 #include "files/descriptor.h"
 #include "files/folder_lock.h"
 #include "files/snapshot_series.h"
+#include "run/errors.h"
+#include "run/vesicle_record.h"
 #include "system_message.h"
-#include "files/vesicle_record.h"
 
 namespace vesiflow::run {
 namespace {
@@ -56,9 +58,9 @@ std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::string column_names(const vesicle::Diagnostics& diagnostics, bool has_distances) {
+std::string column_names(bool has_distances, std::span<const OwnDiagnostic> own) {
   std::string names = "step,time,vesicle";
-  visit_record(diagnostics, [&](std::string_view name, const double*, int length) {
+  visit_record(vesicle::Diagnostics{}, [&](std::string_view name, const double*, int length) {
     if (length == 1)
       names += fmt::format(",{}", name);
     else if (name == "centroid")
@@ -66,13 +68,28 @@ std::string column_names(const vesicle::Diagnostics& diagnostics, bool has_dista
     else
       names += ",semi_axis_1,semi_axis_2,semi_axis_3";
   });
-  return names + (has_distances ? ",min_distance\n" : "\n");
+  if (has_distances) names += ",min_distance";
+  for (const OwnDiagnostic& diagnostic : own) {
+    const auto is_allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+    const bool is_name = !diagnostic.name.empty() && std::ranges::all_of(diagnostic.name, is_allowed);
+    if (!is_name || !diagnostic.value || ("," + names + ",").find("," + diagnostic.name + ",") != std::string::npos)
+      throw SceneError(
+          fmt::format("RunOptions::diagnostics: \"{}\": must be a name of letters, digits and underscores that no "
+                      "column of diagnostics.csv has yet, with a function",
+                      diagnostic.name));
+    names += "," + diagnostic.name;
+  }
+  return names + "\n";
+}
+
+std::string cell_of(double value) {
+  return std::isfinite(value) ? fmt::format(",{:.10g}", value) : ",";
 }
 
 std::string row_of(const vesicle::Diagnostics& diagnostics) {
   std::string row;
   visit_record(diagnostics, [&](std::string_view, const double* values, int length) {
-    for (int i = 0; i < length; ++i) row += std::isfinite(values[i]) ? fmt::format(",{:.10g}", values[i]) : ",";
+    for (int i = 0; i < length; ++i) row += cell_of(values[i]);
   });
   return row;
 }
@@ -105,7 +122,9 @@ std::optional<std::filesystem::path> move_earlier_results(const std::filesystem:
 }
 
 // A kill within the write of a row, where it crosses a page of memory, leaves a part of it.
-DiagnosticsTable::DiagnosticsTable(const std::filesystem::path& directory) : file_(directory / "diagnostics.csv") {
+DiagnosticsTable::DiagnosticsTable(const std::filesystem::path& directory, std::size_t vesicles,
+                                   std::vector<OwnDiagnostic> own)
+    : file_(directory / "diagnostics.csv"), own_(std::move(own)), columns_(column_names(vesicles > 1, own_)) {
   if (!std::filesystem::exists(file_)) return;
   std::string text = text_of(file_);
   const std::size_t whole = text.rfind('\n') + 1;  // 0 if there is none
@@ -118,6 +137,10 @@ DiagnosticsTable::DiagnosticsTable(const std::filesystem::path& directory) : fil
     write_text_atomically(file_, text);
   }
   const std::size_t last_row = text.rfind('\n', whole - 2) + 1;
+  if (!text.starts_with(columns_))
+    throw SceneError(fmt::format(
+        "{}: has the columns {}this run would write {}take the same RunOptions::diagnostics, or another folder",
+        file_.string(), text.substr(0, text.find('\n') + 1), columns_));
   if (last_row > 0) last_step_ = step_of(text.substr(last_row), file_);
 }
 
@@ -142,14 +165,16 @@ void DiagnosticsTable::flush_to_disk() const {
   if (descriptor.valid() && fsync(descriptor) != 0) throw not_written(file_);
 }
 
-void DiagnosticsTable::write(const SceneSimulation& simulation, std::span<const vesicle::Diagnostics> all,
+void DiagnosticsTable::write(SceneSimulation& simulation, std::span<const vesicle::Diagnostics> all,
                              std::span<const double> distances) {
   const bool has_distances = all.size() > 1;
   std::string text;
-  if (!std::filesystem::exists(file_)) text = column_names(all.front(), has_distances);
+  if (!std::filesystem::exists(file_)) text = columns_;
   for (std::size_t i = 0; i < all.size(); ++i) {
     text += fmt::format("{},{:.10g},{}", simulation.steps(), simulation.time(), i) + row_of(all[i]);
-    text += has_distances ? fmt::format(",{:.10g}\n", distances[i]) : "\n";
+    if (has_distances) text += fmt::format(",{:.10g}", distances[i]);
+    for (const OwnDiagnostic& diagnostic : own_) text += cell_of(diagnostic.value(simulation, i));
+    text += '\n';
   }
   append_rows(file_, text);
   last_step_ = simulation.steps();
