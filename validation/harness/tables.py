@@ -1,4 +1,4 @@
-"""Tables as they are stored, printed and put into the pages of docs/."""
+"""Tables as they are stored, printed and put into pages of docs/."""
 
 import math
 import re
