@@ -145,7 +145,7 @@ fluid::Grid whole_or_half(const std::array<bool, 3>& axes, bool whole) {
       lower[axis] = 0.0;
       cells[axis] /= 2;
     }
-  return {lower, upper, cells, {false, !axes[1], false}, whole ? std::array<bool, 3>{} : axes};
+  return {lower, upper, cells, {{false, !axes[1], false}, whole ? std::array<bool, 3>{} : axes}};
 }
 
 // Value of a field of the whole at the points of the half.
@@ -422,7 +422,7 @@ TEST(MarkerTransferAxes, RefusesBoxesItCannotServe) {
         error.what(),
         "marker transfer: 5 cells along x; the kernel \"bao6\" needs at least 6 on a periodic or mirrored axis");
   }
-  const fluid::Grid mirrored({0, 0, 0}, {1, 1, 1}, {5, 8, 8}, {false, false, false}, {true, false, false});
+  const fluid::Grid mirrored({0, 0, 0}, {1, 1, 1}, {5, 8, 8}, {.mirror = {true, false, false}});
   EXPECT_THROW(MarkerTransfer(mirrored, DeltaKernel::six_point), std::invalid_argument);
 }
 

@@ -25,7 +25,7 @@ struct Box {
   bool is(int axis, AxisKind kind) const { return kinds[static_cast<std::size_t>(axis)] == kind; }
   std::array<bool, 3> all(AxisKind kind) const { return {is(0, kind), is(1, kind), is(2, kind)}; }
   fluid::Grid grid() const {
-    return {{-1.0, -2.0, 0.0}, {2.0, 1.5, 2.5}, {13, 12, 9}, all(AxisKind::periodic), all(AxisKind::mirror)};
+    return {{-1.0, -2.0, 0.0}, {2.0, 1.5, 2.5}, {13, 12, 9}, {all(AxisKind::periodic), all(AxisKind::mirror)}};
   }
   MarkerTransfer transfer(DeltaKernel kernel) const { return MarkerTransfer(grid(), kernel); }
   std::string describe() const {

@@ -21,7 +21,7 @@ using Field = fluid::Field<fluid::Cell>;
 const Ellipsoid ellipsoid{{0.7, 1.0, 1.6}, {0.03, 0.02, -0.04}};
 
 fluid::Grid box(int cells, const std::array<bool, 3>& periodic = {false, false, false}) {
-  return {{-3, -3, -3}, {3, 3, 3}, {cells, cells, cells}, periodic};
+  return {{-3, -3, -3}, {3, 3, 3}, {cells, cells, cells}, {.periodic = periodic}};
 }
 
 Field indicator_of(const fluid::Grid& grid, const vesicle::Surface& surface, double value = 1.0) {
