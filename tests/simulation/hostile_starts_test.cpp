@@ -186,7 +186,7 @@ TEST(HostileStarts, AFlowThatTurnsRoundIsFollowed) {
         [turn](const fluid::Vector3& r, double t) {
           return fluid::Vector3{t <= turn ? r[2] : -r[2], 0.0, 0.0};
         },
-        false);
+        fluid::WallMotion::unsteady);
     while (!simulation.finished()) simulation.step();
     return simulation.measure()[0];
   };

@@ -154,7 +154,7 @@ TEST(Simulation, PassiveMembraneFollowsALinearFlowOfOnesOwn) {
                              "membrane.volume=none", "mesh.tangential_degrees=16"});
   scene.membrane.sigma0 = 0.0;
   const auto extension = [](const fluid::Vector3& x, double) { return fluid::Vector3{x[0], -0.5 * x[1], -0.5 * x[2]}; };
-  SceneSimulation simulation(scene, extension, true);
+  SceneSimulation simulation(scene, extension, fluid::WallMotion::steady);
   const vesicle::VectorField start = simulation.membrane(0).positions();
   advance(simulation, 50);
   const double growth = std::pow(1.002, 50), decay = std::pow(1.0 - 0.001, 50);

@@ -32,7 +32,7 @@ TEST(TimeIntegration, ArkodeFollowsALinearFlowToItsTolerance) {
         small_scene(with(markers, {"membrane.capillary_number=1e12", "time.step=0.05", "time.end=0.1",
                                    "membrane.volume=none", "mesh.tangential_degrees=16", "fluid.inertia=none"}));
     scene.membrane.sigma0 = 0.0;
-    SceneSimulation simulation(scene, extension, true);
+    SceneSimulation simulation(scene, extension, fluid::WallMotion::steady);
     const vesicle::VectorField start = simulation.membrane(0).positions();
     advance(simulation, 2);
     return (simulation.membrane(0).positions().col(0) - std::exp(0.1) * start.col(0)).abs().maxCoeff();
@@ -54,7 +54,7 @@ TEST(TimeIntegration, InterpolatedVelocityIsOfSecondOrderInTime) {
     scene.membrane.sigma0 = 0.0;
     scene.time.step = 0.2 / steps;
     scene.time.fluid_velocity = std::string(velocity) == "frozen" ? FluidVelocity::frozen : FluidVelocity::interpolated;
-    SceneSimulation simulation(scene, growing, false);
+    SceneSimulation simulation(scene, growing, fluid::WallMotion::unsteady);
     const vesicle::VectorField start = simulation.membrane(0).positions();
     advance(simulation, steps);
     return (simulation.membrane(0).positions().col(0) - std::exp(0.02) * start.col(0)).abs().maxCoeff();
