@@ -12,6 +12,7 @@
 #include "vesicle/resampling.h"
 #include "vesicle/rigid_motion.h"
 #include "vesicle/surface_file.h"
+#include "vesicle/triangle_mesh.h"
 
 namespace vesiflow::vesicle {
 namespace {
@@ -150,7 +151,7 @@ TEST_F(ArgumentShapes, OfForces) {
   BendingForce bending(grid, {});
   TensionForce tension({});
   IntegralTension integral(grid, {.rate = 1, .degrees = 4});
-  ConservationProjection projection(grid, {.volume = 1.0}), nothing(grid, {});
+  ConservationProjection projection(grid, {.volume = 1.0, .area = {}}), nothing(grid, {});
   expect_refused({
       {"bending", [&] { bending.add_to(surface, wrong_vector); }, {"force", "200", "128"}},
       {"bending", [&] { bending.add_to(other_surface, wrong_vector); }, {"surface", "10", "8"}},

@@ -38,7 +38,7 @@ Grid coarsened(const Grid& grid) {
   for (int axis = 0; axis < 3; ++axis) {
     if (can_be_coarsened(grid, axis) && grid.spacing(axis) < 1.5 * smallest) cells[axis] = (cells[axis] + 1) / 2;
   }
-  return {grid.lower, grid.upper, cells, {grid.periodic, grid.mirror}};
+  return {grid.lower, grid.upper, cells, {.periodic = grid.periodic, .mirror = grid.mirror}};
 }
 
 // Coefficients of the Chebyshev iteration d = a d + b P^-1 r, x += d for eigenvalues of P^-1 A in an interval (Saad,

@@ -67,7 +67,7 @@ TEST(TensorMap, InterpolatesLinearFunctionsThatVanishOnWalls) {
 TEST(TensorMap, RestrictionIsTheScaledTranspose) {
   for (const test::Topology& topology : topologies) {
     const Grid fine = fine_grid(topology);
-    const Grid coarse(fine.lower, fine.upper, {8, 11, 9}, fine.periodic, fine.mirror);
+    const Grid coarse(fine.lower, fine.upper, {8, 11, 9}, {.periodic = fine.periodic, .mirror = fine.mirror});
     SaddleVector a(fine), pb(fine);
     SaddleVector b(coarse), ra(coarse);
     fill_random(a.u(), 1);
