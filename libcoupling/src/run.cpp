@@ -56,7 +56,7 @@ class OutputTimer {
   fluid::PhaseAccount& account_;
   const Simulation& simulation_;
   double measured_before_;
-  PhaseTimer timer_;
+  PhaseTimer<fluid::PhaseAccount> timer_;
 };
 
 class Run {
