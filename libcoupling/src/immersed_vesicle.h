@@ -9,7 +9,7 @@
 #include "coupling/phases.h"
 #include "coupling/scene.h"
 #include "fluid/field.h"
-#include "membrane_motion.h"
+#include "motion/membrane_motion.h"
 #include "thickness_correction.h"
 #include "velocity_noise.h"
 #include "vesicle/membrane.h"

@@ -15,9 +15,9 @@
 #include "external_forces.h"
 #include "fluid/operators.h"
 #include "immersed_vesicle.h"
-#include "implicit_step.h"
+#include "motion/implicit_step.h"
+#include "motion/start_control.h"
 #include "phase_timer.h"
-#include "start_control.h"
 #include "step_control.h"
 #include "viscosity_contrast.h"
 
@@ -112,7 +112,11 @@ void Simulation::make_vesicles() {
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(scene_, i, fluid_.grid(), membrane));
   }
   external_forces_ = std::make_unique<ExternalForces>(scene_, fluid_.grid(), vesicles_);
-  if (scene_.time.markers == "implicit") implicit_step_ = std::make_unique<ImplicitStep>(scene_, vesicles_);
+  if (scene_.time.markers != "implicit") return;
+  std::vector<ImplicitStep::Member> members;
+  for (const auto& v : vesicles_) members.push_back({&dynamic_cast<ImplicitMotion&>(*v->motion), &v->membrane});
+  implicit_step_ = std::make_unique<ImplicitStep>(
+      std::move(members), FixedPoint::Limits{scene_.time.implicit_tolerance, scene_.time.implicit_iterations});
 }
 
 std::vector<vesicle::Diagnostics> Simulation::measure() {

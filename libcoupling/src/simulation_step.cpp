@@ -10,9 +10,9 @@
 #include "each_vesicle.h"
 #include "external_forces.h"
 #include "immersed_vesicle.h"
-#include "implicit_step.h"
+#include "motion/implicit_step.h"
+#include "motion/start_control.h"
 #include "phase_timer.h"
-#include "start_control.h"
 #include "step_control.h"
 #include "viscosity_contrast.h"
 

@@ -5,8 +5,8 @@
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
 #include "immersed_vesicle.h"
+#include "motion/start_control.h"
 #include "phase_timer.h"
-#include "start_control.h"
 #include "viscosity_contrast.h"
 
 namespace vesiflow::coupling {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-#include "sphere_response.h"
+#include "motion/sphere_response.h"
 
 namespace vesiflow::coupling {
 
