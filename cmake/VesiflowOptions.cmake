@@ -50,7 +50,7 @@ endfunction()
 
 if("coupling" IN_LIST VESIFLOW_LIBRARIES OR ("vesicle" IN_LIST VESIFLOW_LIBRARIES AND VESIFLOW_BUILD_APPS))
   vesiflow_resolve_auto(VESIFLOW_WITH_SUNDIALS "time.markers = arkode and implicit and no methods kinsol and cvode"
-    SUNDIALS 6...<7 COMPONENTS arkode kinsol cvode)
+    SUNDIALS 6.4...<7 COMPONENTS arkode kinsol cvode)
 endif()
 if(VESIFLOW_BUILD_TESTS STREQUAL "AUTO" AND NOT PROJECT_IS_TOP_LEVEL)
   set(VESIFLOW_BUILD_TESTS OFF)

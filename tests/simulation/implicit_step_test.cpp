@@ -8,8 +8,9 @@
 
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
-#include "shape_following.h"
+#include "motion/following_parameters.h"
 #include "support/small_scene.h"
+#include "vesicle/mesh_control.h"
 #include "vesicle/rigid_motion.h"
 
 namespace vesiflow::coupling {
@@ -78,7 +79,7 @@ TEST_F(ImplicitStepTest, SolvesItsEquations) {
 
   const double radius = std::sqrt(simulation.membrane(0).initial_area() / (4.0 * std::numbers::pi)),
                dt = scene.time.step;
-  const int degrees = ShapeFollowing::resolved_degrees(scene, 0, radius);
+  const int degrees = resolved_degrees(vesicle::two_thirds_degrees(scene.latitudes(0)), radius, scene.spacing());
   const vesicle::SphericalHarmonics harmonics(degrees, surface.grid(), 3);
   vesicle::Coefficients c;
   vesicle::VectorField u = other.marker_velocity(0), w = u, gradient = u;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "support/small_scene.h"
+#include "support/allocation_counter.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -139,6 +140,20 @@ TEST(ShapeFollowing, LookingAtItDoesNotChangeIt) {
     alone.step();
   }
   expect_same(watched, alone);
+}
+
+// Once the start is over and each part has been used.
+TEST(ShapeFollowing, WarmedUpStepsAllocateNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
+  for (const Overrides& overrides : {Overrides{}, {"fluid.viscosity_ratio=5"}, {"vesicles.0.reduced_volume=0.9999"}}) {
+    Scene scene = following(6000, overrides);
+    scene.mesh.redistribute = Redistribute::never;
+    Simulation simulation(scene);
+    for (int i = 0; i < 4; ++i) simulation.step();
+    const long before = test::allocation_count();
+    for (int i = 0; i < 2; ++i) simulation.step();
+    EXPECT_EQ(test::allocation_count() - before, 0) << (overrides.empty() ? "" : overrides[0]);
+  }
 }
 
 TEST(ShapeFollowing, ASphereTurnsAtHalfTheShearRate) {

@@ -1,5 +1,5 @@
 // Starts far from rest, whose first steps are taken in parts.
-#include "step/start_control.h"
+#include "motion/start_control.h"
 
 #include <gtest/gtest.h>
 

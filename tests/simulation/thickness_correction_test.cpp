@@ -1,4 +1,4 @@
-#include "thickness_correction.h"
+#include "motion/thickness_correction.h"
 
 #include <gtest/gtest.h>
 

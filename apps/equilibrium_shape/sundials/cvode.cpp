@@ -1,28 +1,22 @@
 #include <cvode/cvode.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+#include <sundials/sundials_nonlinearsolver.hpp>
 
 #include <cmath>
-#include <stdexcept>
+#include <span>
 
 #include <Eigen/LU>
 
-#include "handles.h"
 #include "method.h"
 #include "stationarity.h"
+#include "sundials_handles.h"
 
 namespace equilibrium {
 namespace {
 
+using vesiflow::values;
+
 constexpr int most_iterations = 2000;
-
-struct FreeNonlinearSolver {
-  void operator()(SUNNonlinearSolver solver) const { SUNNonlinSolFree(solver); }
-};
-using NonlinearSolverHandle = std::unique_ptr<std::remove_pointer_t<SUNNonlinearSolver>, FreeNonlinearSolver>;
-
-struct FreeCvode {
-  void operator()(void* memory) const { CVodeFree(&memory); }
-};
 
 /// dx/dt = -residual - C (C^T C)^{-1} c: down the gradient along the constraints c = 0, with gradients C, and back to them at
 /// unit rate.
@@ -35,51 +29,51 @@ void velocity(ConstrainedEnergy& energy, const Eigen::VectorXd& x, Eigen::Map<Ei
   result = -stationarity(gradients).residual - derivatives * squares.inverse() * energy.constraint_errors();
 }
 
-int evaluate(double /*time*/, N_Vector x, N_Vector result, void* user) {
-  try {
-    velocity(*static_cast<ConstrainedEnergy*>(user), values(x), values(result));
-    return 0;
-  } catch (const std::domain_error&) {
-    return 1;  // a degenerate mesh: try a shorter step
-  }
-}
-
 }  // namespace
 
 SolverReport minimise_by_cvode(ConstrainedEnergy& energy, Eigen::VectorXd& x, const SolverOptions& options) {
+  using Function = vesiflow::SundialsFunction<double>;
   const Eigen::Index n = energy.unknowns();
-  const ContextHandle context = make_context();
-  const VectorHandle state(N_VNew_Serial(n, context.get()));
-  const NonlinearSolverHandle solver(SUNNonlinSol_FixedPoint(state.get(), 0, context.get()));
-  const std::unique_ptr<void, FreeCvode> cvode(CVodeCreate(CV_ADAMS, context.get()));
-  values(state.get()) = x;
+  const vesiflow::SundialsContext context = vesiflow::make_sundials_context();
+  const vesiflow::SundialsVector state = vesiflow::make_sundials_vector(static_cast<std::size_t>(n), context);
+  const sundials::experimental::SUNNonlinearSolverView solver(SUNNonlinSol_FixedPoint(state, 0, context));
+  const vesiflow::SundialsMemory<CVodeFree> cvode(CVodeCreate(CV_ADAMS, context));
+  Eigen::Map<Eigen::VectorXd>(values(state).data(), n) = x;
 
   // Only the end of the path matters: loose on the way, and tight enough that the state can settle.
   constexpr double relative_tolerance = 1e-3;
   // The flow's times are about one in the unknowns of Meridian: it is not stiff. (BDF with a dense Jacobian takes five to
   // eight times as long.)
   constexpr double first_step = 0.01, far_future = 1e6;
-  std::string message;
-  CVodeSetErrHandlerFn(cvode.get(), keep_message, &message);
-  CVodeInit(cvode.get(), evaluate, 0.0, state.get());
+  // A degenerate mesh has no velocity: the end of a shorter step may.
+  Function flow(
+      [&energy, n](double /*time*/, std::span<const double> at, std::span<double> result) {
+        velocity(energy, Eigen::Map<const Eigen::VectorXd>(at.data(), n), {result.data(), n});
+      },
+      Function::DomainErrors::try_nearer);
+  vesiflow::SundialsMessage message;
+  CVodeSetErrHandlerFn(cvode.get(), vesiflow::SundialsMessage::keep, &message);
+  CVodeInit(cvode.get(), Function::call, 0.0, state);
   CVodeSStolerances(cvode.get(), relative_tolerance, options.tolerance);
   CVodeSetInitStep(cvode.get(), first_step);
-  CVodeSetUserData(cvode.get(), &energy);
-  CVodeSetNonlinearSolver(cvode.get(), solver.get());
+  CVodeSetUserData(cvode.get(), &flow);
+  CVodeSetNonlinearSolver(cvode.get(), solver);
 
   SolverReport report;
   const int limit = options.most_iterations > 0 ? options.most_iterations : most_iterations;
   Eigen::VectorXd rate(n);
   for (;; ++report.iterations) {
-    x = values(state.get());
+    x = Eigen::Map<const Eigen::VectorXd>(values(state).data(), n);
     velocity(energy, x, Eigen::Map<Eigen::VectorXd>(rate.data(), n));
     report.residual = rate.norm();
     if (options.progress) options.progress({report.iterations, energy.functionals().energy, report.residual});
     if (report.residual <= 0.5 * options.tolerance || report.iterations == limit) break;
     double time = 0;
-    const int status = CVode(cvode.get(), far_future, state.get(), &time, CV_ONE_STEP);
+    const int status = CVode(cvode.get(), far_future, state, &time, CV_ONE_STEP);
+    flow.rethrow();
     if (status < 0) {
-      report.obstacle = message.empty() ? "CVODE stopped, code " + std::to_string(status) : message;
+      report.obstacle = message.text.empty() ? "CVODE stopped, code " + std::to_string(status)
+                                             : message.function + ": " + message.text;
       break;
     }
   }

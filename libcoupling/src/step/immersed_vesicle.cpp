@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "coupling/initial_shape.h"
+#include "motion/motion_factory.h"
 #include "phase_timer.h"
 
 namespace vesiflow::coupling {

@@ -9,9 +9,9 @@
 #include "coupling/phases.h"
 #include "coupling/simulation_parameters.h"
 #include "fluid/field.h"
-#include "membrane_motion.h"
+#include "motion/membrane_motion.h"
 #include "step/velocity_noise.h"
-#include "thickness_correction.h"
+#include "motion/thickness_correction.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {

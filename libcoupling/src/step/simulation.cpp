@@ -11,13 +11,13 @@
 #include "coupling/flow.h"
 #include "coupling/overlap.h"
 #include "fluid/operators.h"
-#include "implicit_step.h"
+#include "motion/implicit_step.h"
+#include "motion/start_control.h"
 #include "phase_timer.h"
 #include "step/blow_up_guard.h"
 #include "step/each_vesicle.h"
 #include "step/external_forces.h"
 #include "step/immersed_vesicle.h"
-#include "step/start_control.h"
 #include "step/step_control.h"
 #include "viscosity/viscosity_contrast.h"
 
@@ -77,8 +77,11 @@ void Simulation::make_vesicles() {
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(parameters_, flow_, i, fluid_.grid(), membrane));
   }
   external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_, own_forces_);
-  if (parameters_.time.markers == MarkerMotion::implicit)
-    implicit_step_ = std::make_unique<ImplicitStep>(parameters_, vesicles_);
+  if (parameters_.time.markers != MarkerMotion::implicit) return;
+  std::vector<ImplicitStep::Member> members;
+  for (const auto& v : vesicles_) members.push_back({&dynamic_cast<ImplicitMotion&>(*v->motion), &v->membrane});
+  implicit_step_ = std::make_unique<ImplicitStep>(
+      std::move(members), FixedPoint::Limits{parameters_.time.implicit_tolerance, parameters_.time.implicit_iterations});
 }
 
 void Simulation::add_force(MembraneForce force) {

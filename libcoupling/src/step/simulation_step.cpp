@@ -6,13 +6,13 @@
 
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
-#include "implicit_step.h"
+#include "motion/implicit_step.h"
+#include "motion/start_control.h"
 #include "phase_timer.h"
 #include "step/blow_up_guard.h"
 #include "step/each_vesicle.h"
 #include "step/external_forces.h"
 #include "step/immersed_vesicle.h"
-#include "step/start_control.h"
 #include "step/step_control.h"
 #include "viscosity/viscosity_contrast.h"
 

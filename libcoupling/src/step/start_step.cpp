@@ -3,10 +3,10 @@
 
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
+#include "motion/start_control.h"
 #include "phase_timer.h"
 #include "step/blow_up_guard.h"
 #include "step/immersed_vesicle.h"
-#include "step/start_control.h"
 #include "viscosity/viscosity_contrast.h"
 
 namespace vesiflow::coupling {

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -13,23 +12,10 @@
 #include "grid/check_grid.h"
 #include "grid/planes.h"
 #include "message.h"
+#include "phase_timer.h"
 
 namespace vesiflow::fluid {
 namespace {
-
-// Enters an account for its lifetime: one entry, and the wall seconds.
-class PhaseTimer {
- public:
-  explicit PhaseTimer(PhaseAccount& account) : account_(account) { ++account_.entries; }
-  ~PhaseTimer() { account_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
-  PhaseTimer(const PhaseTimer&) = delete;
-  PhaseTimer& operator=(const PhaseTimer&) = delete;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  PhaseAccount& account_;
-  Clock::time_point start_ = Clock::now();
-};
 
 void check_viscosity(const Grid& grid, const Viscosity& viscosity) {
   if (!viscosity.is_constant()) check_grid("fluid", "the field of viscosity", viscosity.field(), grid);

@@ -56,7 +56,7 @@ class OutputTimer {
   fluid::PhaseAccount& account_;
   const SceneSimulation& simulation_;
   double measured_before_;
-  coupling::PhaseTimer timer_;
+  PhaseTimer<fluid::PhaseAccount> timer_;
 };
 
 class Run {
@@ -260,12 +260,12 @@ void Run::record(bool last) {
   }
   if (wanted(output.vesicle_every) && vesicle_snapshots_->last_step() < step) {
     announce(RunOutput::vesicle_snapshot);
-    const coupling::PhaseTimer timer(record_.output_vesicle);
+    const PhaseTimer timer(record_.output_vesicle);
     vesicle_snapshots_->write(step, time);
   }
   if (wanted(output.fluid_every) && fluid_snapshots_->last_step() < step) {
     announce(RunOutput::fluid_snapshot);
-    const coupling::PhaseTimer timer(record_.output_fluid);
+    const PhaseTimer timer(record_.output_fluid);
     fluid_snapshots_->write(step, time);
   }
   // At the start there is nothing to lose yet, but a state to go back to.
@@ -339,7 +339,7 @@ void Run::stop(const coupling::SimulationStopped& reason) {
 }
 
 void Run::take_step() {
-  const coupling::PhaseTimer timer(record_.wall);
+  const PhaseTimer timer(record_.wall);
   simulation_.step();
   ++record_.steps_taken;
   record_.quality.observe_step(simulation_);
@@ -428,7 +428,7 @@ RunStatus Run::execute() {
   start();
   progress_.emplace(options_.quiet, simulation_);
   try {
-    const coupling::PhaseTimer timer(record_.wall);
+    const PhaseTimer timer(record_.wall);
     record(simulation_.finished());
   } catch (const coupling::SimulationStopped& reason) {
     stop(reason);

@@ -1,4 +1,4 @@
-#include "fixed_point.h"
+#include "motion/fixed_point.h"
 
 #include <gtest/gtest.h>
 

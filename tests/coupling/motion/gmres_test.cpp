@@ -1,4 +1,4 @@
-#include "gmres.h"
+#include "motion/gmres.h"
 
 #include <gtest/gtest.h>
 

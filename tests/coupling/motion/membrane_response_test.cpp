@@ -1,4 +1,4 @@
-#include "membrane_response.h"
+#include "motion/membrane_response.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sphere_response.h"
+#include "motion/sphere_response.h"
 
 #include <gtest/gtest.h>
 
