@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "support/small_scene.h"
 #include "support/allocation_counter.h"
+#include "support/small_scene.h"
 
 namespace vesiflow::coupling {
 namespace {

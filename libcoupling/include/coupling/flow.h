@@ -15,9 +15,9 @@ enum class FlowStart { flow, rest };
 
 /// A flow without vesicles: what the walls do, what drives it, and where it starts from.
 struct Flow {
-  fluid::BoundaryVelocity velocity;       ///< u(x, t), on the walls and, undisturbed, inside; one thread at a time
+  fluid::BoundaryVelocity velocity;  ///< u(x, t), on the walls and, undisturbed, inside; one thread at a time
   fluid::WallMotion motion = fluid::WallMotion::steady;  ///< whether velocity depends on time
-  std::array<bool, 3> may_be_periodic{};  ///< along which axes it repeats
+  std::array<bool, 3> may_be_periodic{};                 ///< along which axes it repeats
   std::array<bool, 3> may_be_mirrored{};  ///< on which axes it is symmetric about the plane of the box's lower end
   /// Uniform force density -dp/dx that takes the place of the pressure drop where axis 0 is periodic: mu_o Lap u.
   double driving_force = 0.0;

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "transfer/mirror_symmetry.h"
 #include "motion/followed_state.h"
 #include "motion/membrane_motion.h"
 #include "motion/mesh_motion.h"
@@ -10,6 +9,7 @@
 #include "motion/shape_conservation.h"
 #include "motion/slip.h"
 #include "motion/strain_motion.h"
+#include "transfer/mirror_symmetry.h"
 #include "vesicle/coefficients.h"
 #include "vesicle/membrane.h"
 #include "vesicle/spherical_harmonics.h"

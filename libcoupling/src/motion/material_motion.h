@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "coupling/marker_integrator.h"
-#include "transfer/mirror_symmetry.h"
 #include "motion/membrane_motion.h"
 #include "step/step_error.h"
+#include "transfer/mirror_symmetry.h"
 
 namespace vesiflow::coupling {
 

@@ -19,7 +19,7 @@ namespace vesiflow::coupling {
 ///
 /// What a fluid that carries part of its operator explicitly remembers of a velocity is -d(log response)/da for its
 /// time derivative (`inertia`) and -d(log response)/d mu for its viscous term (`viscosity`), both times exp(0.1 (k
-/// h)^2), as the true response is weaker than `velocity` by about exp(-0.25 (k h)^2). Units: lengths of the scene, mu
+/// h)^2), as the true response is weaker than `velocity` by about exp(-0.25 (k h)^2). Units: lengths of the simulation, mu
 /// of the outer fluid.
 class MembraneResponse {
  public:

@@ -6,11 +6,11 @@
 #include <numbers>
 
 #include "coupling/flow.h"
-#include "transfer/mirror_symmetry.h"
 #include "motion/following_parameters.h"
 #include "motion/implicit_motion.h"
 #include "motion/material_motion.h"
 #include "motion/shape_following.h"
+#include "transfer/mirror_symmetry.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 
@@ -31,7 +31,8 @@ SurroundingFluid fluid_around(const SimulationParameters& all, std::size_t vesic
   return fluid;
 }
 
-FollowedShape::Parameters shape_parameters(const SimulationParameters& all, const Flow& flow, std::size_t number, const vesicle::Membrane& membrane) {
+FollowedShape::Parameters shape_parameters(const SimulationParameters& all, const Flow& flow, std::size_t number,
+                                           const vesicle::Membrane& membrane) {
   FollowedShape::Parameters shape;
   shape.radius = std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi));
   const int chosen =
@@ -51,7 +52,8 @@ FollowedShape::Parameters shape_parameters(const SimulationParameters& all, cons
   return shape;
 }
 
-FollowingParameters following_parameters(const SimulationParameters& all, const Flow& flow, std::size_t vesicle, const vesicle::Membrane& membrane) {
+FollowingParameters following_parameters(const SimulationParameters& all, const Flow& flow, std::size_t vesicle,
+                                         const vesicle::Membrane& membrane) {
   FollowingParameters parameters;
   parameters.shape = shape_parameters(all, flow, vesicle, membrane);
   parameters.material = {.sigma0 = membrane.parameters().sigma0,
@@ -61,8 +63,7 @@ FollowingParameters following_parameters(const SimulationParameters& all, const 
   parameters.grid.spacing = all.finest_spacing();
   parameters.grid.is_corrected = all.coupling.thickness_correction;
   // A correction of the thickness makes the answer that of a thin membrane.
-  if (!parameters.grid.is_corrected)
-    parameters.grid.thickness = MembraneResponse::second_moments(all.coupling.kernel);
+  if (!parameters.grid.is_corrected) parameters.grid.thickness = MembraneResponse::second_moments(all.coupling.kernel);
   parameters.unit_of_length = all.vesicles[vesicle].radius;
   return parameters;
 }
@@ -73,19 +74,20 @@ std::unique_ptr<MembraneMotion> make_material_motion(const SimulationParameters&
       .interpolates_in_time = all.time.fluid_velocity == FluidVelocity::interpolated,
       .has_stages = all.time.markers == MarkerMotion::arkode,
       .estimates_error = all.time.adaptive};
-  auto integrator = make_marker_integrator(
-      all.time.markers, static_cast<std::size_t>(membrane.positions().size()),
-      {all.time.relative_tolerance, all.time.absolute_tolerance * all.vesicles[vesicle].radius});
-  return std::make_unique<MaterialMotion>(parameters, std::move(integrator),
-                                          MirrorSymmetry(all, membrane.positions()), membrane);
+  auto integrator =
+      make_marker_integrator(all.time.markers, static_cast<std::size_t>(membrane.positions().size()),
+                             {all.time.relative_tolerance, all.time.absolute_tolerance * all.vesicles[vesicle].radius});
+  return std::make_unique<MaterialMotion>(parameters, std::move(integrator), MirrorSymmetry(all, membrane.positions()),
+                                          membrane);
 }
 
 }  // namespace
 
-std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& all, const Flow& flow, std::size_t vesicle,
-                                                     const vesicle::Membrane& membrane) {
+std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& all, const Flow& flow,
+                                                     std::size_t vesicle, const vesicle::Membrane& membrane) {
   const bool is_implicit = all.time.markers == MarkerMotion::implicit;
-  if (!is_implicit && all.time.markers != MarkerMotion::shape_following) return make_material_motion(all, vesicle, membrane);
+  if (!is_implicit && all.time.markers != MarkerMotion::shape_following)
+    return make_material_motion(all, vesicle, membrane);
   const FollowingParameters parameters = following_parameters(all, flow, vesicle, membrane);
   const MirrorSymmetry symmetry(all, membrane.positions());
   if (is_implicit) return std::make_unique<ImplicitMotion>(parameters, symmetry, membrane);

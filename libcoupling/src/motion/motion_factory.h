@@ -11,7 +11,7 @@
 namespace vesiflow::coupling {
 
 /// The motion that time.markers names, for the membrane of that vesicle.
-std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& parameters, const Flow& flow, std::size_t vesicle,
-                                                     const vesicle::Membrane& membrane);
+std::unique_ptr<MembraneMotion> make_membrane_motion(const SimulationParameters& parameters, const Flow& flow,
+                                                     std::size_t vesicle, const vesicle::Membrane& membrane);
 
 }  // namespace vesiflow::coupling

@@ -18,7 +18,7 @@ namespace vesiflow::coupling {
 /// units. (What the markers have moved says less: the implicit terms hold them back.) A first step with a large one,
 /// or which cannot be computed, is taken back and begun again in halves, quarters, ... of time.step. After some calm
 /// parts they are twice as long, where they then fit into the step (BDF2 is stable while steps grow by less than 1 +
-/// sqrt 2), so that all steps of the scene end when they would have ended. The start is over when the next part would
+/// sqrt 2), so that all steps end when they would have ended. The start is over when the next part would
 /// be a whole step.
 class StartControl {
  public:

@@ -138,11 +138,12 @@ Flow duct_flow(double peak, const Domain& domain) {
 }
 
 Flow custom_flow(const fluid::BoundaryVelocity& velocity, fluid::WallMotion motion) {
-  return {.velocity = velocity,
-          .motion = motion,
-          .may_be_periodic = along_all,
-          .may_be_mirrored = about_all,
-          .description = motion == fluid::WallMotion::steady ? "custom, evaluated once" : "custom, evaluated in each step"};
+  return {
+      .velocity = velocity,
+      .motion = motion,
+      .may_be_periodic = along_all,
+      .may_be_mirrored = about_all,
+      .description = motion == fluid::WallMotion::steady ? "custom, evaluated once" : "custom, evaluated in each step"};
 }
 
 }  // namespace vesiflow::coupling

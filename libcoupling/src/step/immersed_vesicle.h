@@ -10,8 +10,8 @@
 #include "coupling/simulation_parameters.h"
 #include "fluid/field.h"
 #include "motion/membrane_motion.h"
-#include "step/velocity_noise.h"
 #include "motion/thickness_correction.h"
+#include "step/velocity_noise.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {

@@ -81,7 +81,8 @@ void Simulation::make_vesicles() {
   std::vector<ImplicitStep::Member> members;
   for (const auto& v : vesicles_) members.push_back({&dynamic_cast<ImplicitMotion&>(*v->motion), &v->membrane});
   implicit_step_ = std::make_unique<ImplicitStep>(
-      std::move(members), FixedPoint::Limits{parameters_.time.implicit_tolerance, parameters_.time.implicit_iterations});
+      std::move(members),
+      FixedPoint::Limits{parameters_.time.implicit_tolerance, parameters_.time.implicit_iterations});
 }
 
 void Simulation::add_force(MembraneForce force) {

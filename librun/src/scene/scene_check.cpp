@@ -91,9 +91,10 @@ void check_scene(const Scene& scene, const coupling::Flow& flow, const std::stri
 
 void check_scene(const Scene& scene, const std::string& name) {
   if (scene.flow.type == FlowType::custom)
-    return check_scene(
-        scene, coupling::custom_flow([](const fluid::Vector3&, double) { return fluid::Vector3{}; },
-                                                   fluid::WallMotion::steady), name);
+    return check_scene(scene,
+                       coupling::custom_flow([](const fluid::Vector3&, double) { return fluid::Vector3{}; },
+                                             fluid::WallMotion::steady),
+                       name);
   check_scene(scene, flow_of(scene), name);
 }
 

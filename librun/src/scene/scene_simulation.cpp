@@ -25,8 +25,7 @@ const Scene& checked(const Scene& scene, const coupling::Flow& flow) {
 
 SceneSimulation::SceneSimulation(const Scene& scene) : SceneSimulation(scene, flow_of(scene), scene.flow.type) {}
 
-SceneSimulation::SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow,
-                                 fluid::WallMotion motion)
+SceneSimulation::SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow, fluid::WallMotion motion)
     : SceneSimulation(scene, coupling::custom_flow(flow, motion)) {}
 
 SceneSimulation::SceneSimulation(const Scene& scene, const coupling::Flow& flow)
