@@ -152,6 +152,14 @@ for library in "${libraries[@]}"; do
   done < <(includes "lib$library/include")
 done
 
+# Files of scenes and results, a logger and signals are matters of programs: of librun.
+for library in vesicle fluid coupling; do
+  while IFS=: read -r file included; do
+    [[ ! $included =~ ^(toml\+\+|nlohmann|spdlog|hdf5|H5|CLI|csignal|signal\.h) ]] ||
+      complain "libraries of numerics know no files of scenes or results, no logger and no signals: $file includes <$included>"
+  done < <(includes "lib$library")
+done
+
 # Apps: what one includes in quotes is a file of the apps, a public header, of common/, or the version that the build writes.
 while IFS=: read -r file included; do
   [[ ! $included =~ ^((\.\./)*lib[a-z]+/|.*(src|detail)/) ]] || complain "apps include public headers only: $file includes \"$included\""

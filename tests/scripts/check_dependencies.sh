@@ -102,7 +102,7 @@ fresh
 adds tests/vesicle/harmonics/coefficients_test.cpp '#include "fluid/grid.h"'
 refused "libvesicle knows no libfluid" tests/vesicle/harmonics/coefficients_test.cpp
 fresh
-adds libfluid/src/message.h '#include <coupling/scene.h>'
+adds libfluid/src/message.h '#include <coupling/simulation.h>'
 refused "libfluid knows no libcoupling" libfluid/src/message.h
 fresh
 adds common/short_waits.h '#include "vesicle/types.h"'
@@ -122,12 +122,18 @@ fresh
 adds apps/vesicles.cpp '#include "harmonics/lanes.h"'
 refused "apps include public headers and common/ only" apps/vesicles.cpp '"harmonics/lanes.h"'
 
-# A library that gets rooms needs its lines only.
+# Libraries of numerics know no files, no logger, no signals.
+for header in '<toml++/toml.h>' '<nlohmann/json.hpp>' '<spdlog/spdlog.h>' '<hdf5.h>' '<csignal>'; do
+  fresh
+  adds libcoupling/src/step/simulation.cpp "#include $header"
+  refused "libraries of numerics" libcoupling/src/step/simulation.cpp
+done
 fresh
-mkdir -p libcoupling/src/transfer
-mv libcoupling/src/delta_kernel.cpp libcoupling/src/transfer/
-adds scripts/rooms.txt 'room coupling src'
-refused "no line for room transfer" libcoupling/src/transfer/delta_kernel.cpp
+adds libcoupling/src/motion/gmres.cpp '#include "step/immersed_vesicle.h"'
+refused "room motion may not include room step" libcoupling/src/motion/gmres.cpp
+fresh
+adds libcoupling/src/step/simulation.cpp '#include "run/scene.h"'
+refused "libcoupling knows no librun" libcoupling/src/step/simulation.cpp
 
 [[ $failed -eq 0 ]] && echo "the check of dependencies finds what it is meant to find"
 exit $failed
