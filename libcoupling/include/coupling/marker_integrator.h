@@ -5,8 +5,9 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
+
+#include "coupling/marker_motion.h"
 
 namespace vesiflow::coupling {
 
@@ -40,15 +41,6 @@ class MarkerIntegrator {
 
   virtual MarkerStatistics statistics() const = 0;
 };
-
-/// Ways in which markers move through a step; docs/time_integration.md compares them. The first four follow the material, by a
-/// MarkerIntegrator; the meshes of the last two follow the shape.
-enum class MarkerMotion { euler, ab2, arkode, strain_relaxation, shape_following, implicit };
-inline constexpr std::array<std::string_view, 6> marker_motion_names{
-    "euler", "ab2", "arkode", "strain_relaxation", "shape_following", "implicit"};
-inline std::string_view name(MarkerMotion motion) {
-  return marker_motion_names.at(static_cast<std::size_t>(motion));
-}
 
 /// Those that are by a MarkerIntegrator.
 inline constexpr std::array marker_integrators{MarkerMotion::euler, MarkerMotion::ab2, MarkerMotion::arkode,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "coupling/delta_kernel.h"
-#include "coupling/marker_integrator.h"
+#include "coupling/marker_motion.h"
 #include "fluid/elliptic_solver.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/coefficients.h"

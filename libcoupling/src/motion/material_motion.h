@@ -7,8 +7,8 @@
 
 #include "coupling/marker_integrator.h"
 #include "motion/membrane_motion.h"
-#include "step/step_error.h"
-#include "transfer/mirror_symmetry.h"
+#include "motion/mirror_symmetry.h"
+#include "motion/step_error.h"
 
 namespace vesiflow::coupling {
 

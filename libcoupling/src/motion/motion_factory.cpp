@@ -9,8 +9,8 @@
 #include "motion/following_parameters.h"
 #include "motion/implicit_motion.h"
 #include "motion/material_motion.h"
+#include "motion/mirror_symmetry.h"
 #include "motion/shape_following.h"
-#include "transfer/mirror_symmetry.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 

@@ -12,7 +12,7 @@
 #include "coupling/marker_transfer.h"
 #include "coupling/parameter_table.h"
 #include "coupling/validity.h"
-#include "transfer/mirror_symmetry.h"
+#include "motion/mirror_symmetry.h"
 
 namespace vesiflow::coupling {
 namespace {

@@ -1,4 +1,4 @@
-#include "transfer/mirror_symmetry.h"
+#include "motion/mirror_symmetry.h"
 
 #include <gtest/gtest.h>
 
