@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "motion/constants.h"
 #include "motion/membrane_condition.h"
 #include "motion/slip.h"
 #include "motion/strain_motion.h"
+#include "vesicle/redistribution.h"
 #include "vesicle/shapes.h"
 
 namespace vesiflow::coupling {
@@ -54,7 +57,7 @@ class MeshMotionTest : public testing::Test {
   }
   /// A velocity along the membrane, but for what is cut off its degrees.
   VectorField tangential() const {
-    VectorField u = rigid(surface.positions(), {}, {0.3, 0.4, 1.0});
+    VectorField u = rigid(surface.positions(), Vector3::Zero(), {0.3, 0.4, 1.0});
     for (Eigen::Index m = 0; m < u.rows(); ++m) {
       const double normal = (u.row(m) * surface.normal().row(m)).sum();
       u.row(m) -= normal * surface.normal().row(m);
@@ -82,7 +85,7 @@ TEST_F(MeshMotionTest, FollowsABodyAndLeavesItsMaterialNoSlip) {
 TEST_F(MeshMotionTest, StandsStillWhereASphereTurns) {
   surface.update(vesicle::sphere(grid));
   MeshMotion motion(harmonics, 1.0);
-  const auto& moving = motion.find(0.01, surface, rigid(surface.positions(), {}, {0.0, 0.0, 0.5}));
+  const auto& moving = motion.find(0.01, surface, rigid(surface.positions(), Vector3::Zero(), {0.0, 0.0, 0.5}));
   EXPECT_LT(largest(moving.mesh), 1e-10);
   EXPECT_NEAR(moving.largest_speed, 0.5, 2e-3);  // no marker is on the equator
 }
@@ -109,21 +112,31 @@ TEST_F(MeshMotionTest, KeepsTheShapeToSecondOrder) {
   VectorField along = moving.mesh;
   for (Eigen::Index m = 0; m < along.rows(); ++m) along.row(m) -= leak(m) * surface.normal().row(m);
   EXPECT_LT(leak.abs().maxCoeff(), 0.02 * largest(along));
-  const double whole = distance(x + 0.1 * along), half = distance(x + 0.05 * along);
-  EXPECT_GT(whole, 1e-4);
+  const double whole = distance(x + 0.02 * along), half = distance(x + 0.01 * along);
+  EXPECT_GT(whole, 1e-6);
   EXPECT_NEAR(whole / half, 4.0, 0.3);
 }
 
-TEST_F(MeshMotionTest, RelaxesAMeshThatIsPressedTogether) {
+// Along the shape it goes down the mesh energy, which is zero for an ellipsoid's own mesh.
+TEST_F(MeshMotionTest, GoesDownTheMeshEnergy) {
+  const auto energy = [&](const VectorField& x) {
+    vesicle::Coefficients c;
+    harmonics.analysis(x, c);
+    double sum = 0.0;
+    for (int n = 0; n < degrees; ++n) sum += vesicle::mesh_energy_weight(n) * c.energy(n, n + 1);
+    return sum;
+  };
+  place();
+  EXPECT_LT(energy(surface.positions()), 1e-20);
   place(0.6);
-  const double before = greatest_compression(surface, 1.0);
+  const VectorField x = surface.positions();
   MeshMotion motion(harmonics, 1.0);
-  VectorField x = surface.positions();
-  for (int i = 0; i < 20; ++i) {
-    x += 0.2 * motion.find(0.2, surface, tangential()).mesh;
-    surface.update(x, vesicle::GeometryDetail::first_form);
+  VectorField along = motion.find(1e-6, surface, tangential()).mesh;
+  for (Eigen::Index m = 0; m < along.rows(); ++m) {
+    const double normal = (along.row(m) * surface.normal().row(m)).sum();
+    along.row(m) -= normal * surface.normal().row(m);
   }
-  EXPECT_LT(greatest_compression(surface, 1.0), 0.95 * before);
+  for (const double time : {0.01, 0.1}) EXPECT_LT(energy(x + time * along), (1.0 - 0.5 * time) * energy(x)) << time;
 }
 
 TEST_F(MeshMotionTest, CompressionIsThatOfTheShortAxis) {
@@ -138,7 +151,8 @@ TEST_F(MeshMotionTest, StrainGrowsWithTheAreaAndGoesWithTheSlip) {
   surface.update(vesicle::sphere(grid));
   StrainMotion motion(grid.size());
   const vesicle::ScalarField strain = surface.positions().col(0);
-  const VectorField growth = 0.3 * surface.positions(), turning = rigid(surface.positions(), {}, {0.0, 0.0, 0.5});
+  const VectorField growth = 0.3 * surface.positions(),
+                    turning = rigid(surface.positions(), Vector3::Zero(), {0.0, 0.0, 0.5});
   EXPECT_LT((motion.find_rate(surface, growth, growth, strain) - 0.6).abs().maxCoeff(), 1e-10);
   // Turning below a mesh at rest: ds/dt = -w.grad x = 0.5 y.
   const VectorField none = VectorField::Zero(grid.size(), 3);
