@@ -6,7 +6,6 @@
 
 #include "motion/constants.h"
 #include "motion/flat_coefficients.h"
-#include "vesicle/redistribution.h"
 #include "vesicle/rigid_motion.h"
 
 namespace vesiflow::coupling {
@@ -24,14 +23,6 @@ double largest_distance(const VectorField& velocity, const Vector3& from) {
     largest_square = std::max(largest_square, square);
   }
   return std::sqrt(largest_square);
-}
-
-void make_tangential(const Surface& surface, VectorField& field) {
-  const VectorField& n = surface.normal();
-  for (Eigen::Index m = 0; m < field.rows(); ++m) {
-    const double normal = (field.row(m) * n.row(m)).sum();
-    field.row(m) -= normal * n.row(m);
-  }
 }
 
 }  // namespace
@@ -76,19 +67,7 @@ const MeshMotion::Velocities& MeshMotion::find(double dt, const Surface& surface
 // derivative, so that all degrees relax at about the same rate. Degrees 0 and 1 have no weight of their own in it and
 // take that of degree 2, the lowest that they meet there.
 void MeshMotion::relax(double rate, const Surface& surface) {
-  const auto weigh = [this, &surface](const auto& factor) {
-    harmonics_.analysis(direction_, coefficients_);
-    for (int n = 0; n < coefficients_.degrees(); ++n) {
-      const double f = factor(n);
-      for (int m = 0; m <= n; ++m)
-        for (int i = 0; i < 3; ++i) coefficients_(i, n, m) *= f;
-    }
-    harmonics_.synthesis(coefficients_, direction_);
-    make_tangential(surface, direction_);
-  };
-  direction_ = surface.positions();
-  weigh([](int n) { return -vesicle::mesh_energy_weight(n); });
-  weigh([](int n) { return 1.0 / vesicle::mesh_energy_weight(std::max(2, n)); });
+  descent_.direction(harmonics_, surface, direction_);
   velocities_.mesh += rate * direction_;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vesicle/coefficients.h"
+#include "vesicle/mesh_energy.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
@@ -11,7 +12,7 @@ namespace vesiflow::coupling {
 /// membrane, V + Omega x r the rigid motion of the shape (vesicle/rigid_motion.h) and P = I - n n^T,
 ///   W = (n.U) n + P (V + Omega x r + lambda d).
 /// In tank-treading the mesh then stands still. d leads along the membrane down the mesh energy of
-/// vesicle/redistribution.h: without it a vesicle that changes its shape presses markers together, and waves that are
+/// vesicle/mesh_energy.h: without it a vesicle that changes its shape presses markers together, and waves that are
 /// short for the fluid's grid and long for the mesh grow.
 class MeshMotion {
  public:
@@ -36,6 +37,7 @@ class MeshMotion {
   Velocities velocities_;
   vesicle::ScalarField normal_velocity_;
   vesicle::VectorField direction_;
+  vesicle::MeshEnergyDescent descent_{{.lowest_degree = 2}};
   vesicle::Coefficients coefficients_;
 };
 

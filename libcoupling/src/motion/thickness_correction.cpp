@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "motion/sphere_response.h"
+#include "vesicle/scale_degrees.h"
 
 namespace vesiflow::coupling {
 
@@ -58,11 +59,7 @@ void ThicknessCorrection::add_to(const vesicle::Membrane& membrane, const vesicl
   values_.leftCols<3>() = force - pressure * surface.normal();
   values_.col(3) = membrane.tension();
   harmonics_.analysis(values_, coefficients_);
-  for (int n = 0; n < degrees(); ++n)
-    for (int m = 0; m <= n; ++m) {
-      for (int axis = 0; axis < 3; ++axis) coefficients_(axis, n, m) *= smoothing(n);
-      coefficients_(3, n, m) *= along(n);
-    }
+  vesicle::scale_degrees(coefficients_, [this](int field, int n) { return field < 3 ? smoothing(n) : along(n); });
   harmonics_.synthesis(coefficients_, values_);
   potential_ = values_.col(3);
   surface.gradient(potential_, gradient_);
