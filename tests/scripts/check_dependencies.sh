@@ -116,11 +116,11 @@ fresh
 adds libfluid/include/fluid/grid.h '#include "message.h"'
 refused "public headers include no private one" libfluid/include/fluid/grid.h message.h
 fresh
-adds apps/vesicles.cpp '#include "../libvesicle/src/check.h"'
-refused "apps include public headers only" apps/vesicles.cpp
+adds apps/scene/vesicles.cpp '#include "../libvesicle/src/check.h"'
+refused "apps include public headers only" apps/scene/vesicles.cpp
 fresh
-adds apps/vesicles.cpp '#include "harmonics/lanes.h"'
-refused "apps include public headers and common/ only" apps/vesicles.cpp '"harmonics/lanes.h"'
+adds apps/scene/vesicles.cpp '#include "harmonics/lanes.h"'
+refused "apps include public headers and common/ only" apps/scene/vesicles.cpp '"harmonics/lanes.h"'
 
 # Libraries of numerics know no files, no logger, no signals.
 for header in '<toml++/toml.h>' '<nlohmann/json.hpp>' '<spdlog/spdlog.h>' '<hdf5.h>' '<csignal>'; do
