@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -422,6 +424,33 @@ TEST(Scene, EveryKeyIsDocumented) {
   text << stream.rdbuf();
   for (const SceneKey& key : scene_keys())
     EXPECT_NE(text.str().find("`" + key.name + "`"), std::string::npos) << key.name << " is not in docs/scene.md";
+}
+
+// Programs that fill a scene themselves: each of these was accepted once, and the last two ran off an array.
+TEST(Scene, WhatAProgramFillsInIsCheckedAsAFileIs) {
+  const auto refusal = [](const std::function<void(Scene&)>& spoil) -> std::string {
+    Scene scene = parse(sphere);
+    spoil(scene);
+    try {
+      check_scene(scene, "program");
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal([](Scene&) {}), "accepted");
+  EXPECT_EQ(refusal([](Scene& s) { s.time.step = -0.01; }), "program: time.step = -0.01: must be > 0");
+  EXPECT_EQ(refusal([](Scene& s) { s.fluid.viscosity_ratio = 5000.0; }),
+            "program: fluid.viscosity_ratio = 5000: must be in [0.05, 100]");
+  EXPECT_EQ(refusal([](Scene& s) { s.output.fluid_every = -1.0; }), "program: output.fluid_every = -1: must be >= 0");
+  EXPECT_EQ(refusal([](Scene& s) { s.ending.retries = 0; }), "program: limits.retries = 0: must be in [1, 30]");
+  EXPECT_NE(refusal([](Scene& s) {
+              s.time.markers = static_cast<coupling::MarkerMotion>(17);
+            }).find("program: time.markers = 17"),
+            std::string::npos);
+  Scene scene = parse(sphere);
+  scene.time.markers = static_cast<coupling::MarkerMotion>(17);
+  EXPECT_THROW(to_toml(scene), SceneError);
 }
 
 }  // namespace
