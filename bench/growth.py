@@ -5,7 +5,7 @@ usage: scripts/python.sh bench/growth.py [--quick] [--apps FOLDER] [--docs]
 
 Wants a quiet machine with 4 GB: times are wall milliseconds per step, the least of three runs of a few steps without output. Memory is the peak
 resident size of the run. Writes bench/results/growth.json and docs/figures/growth.png (--quick: the small sizes once, growth.quick.json
-and no picture); --docs puts the stored tables into docs/performance.md. Exit code 1 if the memory of a plan is off by more than a tenth.
+and no picture); --docs puts the stored tables into docs/studies/growth.md. Exit code 1 if the memory of a plan is off by more than a tenth.
 """
 
 import argparse
@@ -24,7 +24,7 @@ sys.path.insert(0, str(ROOT / "validation"))
 from harness import drawing, outputs, store, tables  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results"
-PAGE = ROOT / "docs" / "performance.md"
+PAGE = ROOT / "docs" / "studies" / "growth.md"
 STEP = 960  # steps per unit of time: nothing moves far, so that sizes differ and shapes do not
 ALLOWED = 0.1  # of memory
 # What varies; the others stay at CELLS, LATITUDES and one vesicle. Several vesicles have a radius of 0.6 and a box of their own.
@@ -164,7 +164,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--quick", action="store_true", help="small sizes, once")
     parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
-    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/performance.md, without measuring")
+    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies/growth.md, without measuring")
     options = parser.parse_args()
     if options.docs:
         write_docs()

@@ -7,7 +7,7 @@ usage: scripts/python.sh bench/work_precision.py CASE... [--quick] [--jobs N] [-
 CASE is one of tank_treading, ratio_5, ratio_20, relaxation, duct, extension, unseen and unseen_tilted (what method.accuracy chooses, on scenes that were
 not used to choose it), or all. Writes bench/results/work_precision/CASE.json (CASE.quick.json
 with --quick: coarser references and fewer runs) and docs/figures/work_precision_CASE.png; --docs puts the stored tables into
-docs/performance.md. Runs have one thread each and are kept in out/validation: what is done is not run again, and what was
+docs/studies/work_precision.md. Runs have one thread each and are kept in out/validation: what is done is not run again, and what was
 interrupted goes on from its checkpoint. Seconds are of the processor, of whole runs with start and output: on shared cores they vary by a fifth.
 --list shows the cases, --estimate what their runs will take by the plan's model.
 """
@@ -28,7 +28,7 @@ from harness import outputs, runs, store, tables  # noqa: E402
 from precision import cases, report, study  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results" / "work_precision"
-PAGE = ROOT / "docs" / "performance.md"
+PAGE = ROOT / "docs" / "studies" / "work_precision.md"
 
 
 def stored_file(name, quick):
@@ -99,7 +99,7 @@ def main():
     parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--list", action="store_true", help="list the cases")
     parser.add_argument("--estimate", action="store_true", help="what the runs that are missing will take")
-    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/performance.md")
+    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies/work_precision.md")
     options = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
     unknown = [name for name in options.cases if name != "all" and name not in cases.BUILDERS]

@@ -15,7 +15,7 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SUNDIALS REQUIRED_VARS ${SUNDIALS_LIBRARIES_NEEDED} SUNDIALS_INCLUDE_DIR
   VERSION_VAR SUNDIALS_VERSION HANDLE_VERSION_RANGE
-  REASON_FAILURE_MESSAGE "install SUNDIALS 6 (Debian: libsundials-dev), or configure with -DVESIFLOW_WITH_SUNDIALS=OFF")
+  REASON_FAILURE_MESSAGE "install SUNDIALS 6.4 or a later 6 (Debian: libsundials-dev), or configure with -DVESIFLOW_WITH_SUNDIALS=OFF")
 mark_as_advanced(SUNDIALS_INCLUDE_DIR)
 if(SUNDIALS_FOUND)
   foreach(component IN LISTS SUNDIALS_FIND_COMPONENTS)

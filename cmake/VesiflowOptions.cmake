@@ -1,10 +1,10 @@
 # Every choice a builder has, in one place.
-set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling" CACHE STRING
-  "Libraries to build: any of vesicle, fluid, coupling (coupling needs the other two)")
+set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling;run" CACHE STRING
+  "Libraries to build: any of vesicle, fluid, coupling (which needs these two) and run (which needs all three)")
 set(VESIFLOW_ARCH "native" CACHE STRING
   "Processors to compile for, as -march= names them: native (this machine), x86-64-v3 ...; empty: all that the compiler's default covers")
 option(VESIFLOW_NATIVE "Let VESIFLOW_ARCH be native; OFF makes that empty" ON)
-option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (libcoupling)" ON)
+option(VESIFLOW_WITH_HDF5 "Write snapshots and checkpoints with HDF5 (librun)" ON)
 option(VESIFLOW_WITH_CHOLMOD "Build the sparse direct solver, for small elliptic problems (libfluid)" ON)
 set(VESIFLOW_WITH_SUNDIALS "AUTO" CACHE STRING
   "Build what uses SUNDIALS: time.markers = arkode and implicit (libcoupling), methods kinsol and cvode (app equilibrium_shape): ON, OFF, or AUTO, if SUNDIALS is found")
@@ -20,13 +20,15 @@ if(VESIFLOW_ARCH STREQUAL "native" AND NOT VESIFLOW_NATIVE)
   set(VESIFLOW_ARCH "")
 endif()
 
-if("coupling" IN_LIST VESIFLOW_LIBRARIES)
-  foreach(needed vesicle fluid)
-    if(NOT needed IN_LIST VESIFLOW_LIBRARIES)
-      message(FATAL_ERROR "VESIFLOW_LIBRARIES: coupling needs ${needed}; add it to the list")
+set(coupling_needs vesicle fluid)
+set(run_needs vesicle fluid coupling)
+foreach(library coupling run)
+  foreach(needed IN LISTS ${library}_needs)
+    if(library IN_LIST VESIFLOW_LIBRARIES AND NOT needed IN_LIST VESIFLOW_LIBRARIES)
+      message(FATAL_ERROR "VESIFLOW_LIBRARIES: ${library} needs ${needed}; add it to the list")
     endif()
   endforeach()
-endif()
+endforeach()
 
 # vesiflow_resolve_auto(OPTION LOST PACKAGE ...): an option that is AUTO becomes ON where find_package(PACKAGE ...) finds something; elsewhere
 # OFF, with a line that says what is lost. ON where nothing is found is an error.
@@ -48,7 +50,7 @@ endfunction()
 
 if("coupling" IN_LIST VESIFLOW_LIBRARIES OR ("vesicle" IN_LIST VESIFLOW_LIBRARIES AND VESIFLOW_BUILD_APPS))
   vesiflow_resolve_auto(VESIFLOW_WITH_SUNDIALS "time.markers = arkode and implicit and no methods kinsol and cvode"
-    SUNDIALS 6...<7 COMPONENTS arkode kinsol cvode)
+    SUNDIALS 6.4...<7 COMPONENTS arkode kinsol cvode)
 endif()
 if(VESIFLOW_BUILD_TESTS STREQUAL "AUTO" AND NOT PROJECT_IS_TOP_LEVEL)
   set(VESIFLOW_BUILD_TESTS OFF)

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "check.h"
-#include "coupling/checkpoint.h"
-#include "coupling/errors.h"
+#include "run/checkpoint.h"
+#include "run/errors.h"
 
 namespace vesiflow::fuzz {
 
@@ -21,13 +21,13 @@ inline std::vector<char> bytes_of(const std::filesystem::path& file) {
 /// A tiny run of two steps, whose state the targets damage.
 class Run {
  public:
-  Run() : scene_(coupling::parse_scene(text, "scene.toml")), simulation_(scene_) {
+  Run() : scene_(run::parse_scene(text, "scene.toml")), simulation_(scene_) {
     simulation_.step();
     simulation_.step();
     state_.emplace(simulation_.state());
   }
 
-  coupling::Simulation& simulation() { return simulation_; }
+  run::SceneSimulation& simulation() { return simulation_; }
 
   coupling::SimulationState state() {
     simulation_.restore(*state_);
@@ -74,8 +74,8 @@ harmonics = [[2, 0, 0.1]]
 radius = 0.8
 )";
 
-  coupling::Scene scene_;
-  coupling::Simulation simulation_;
+  run::Scene scene_;
+  run::SceneSimulation simulation_;
   std::optional<coupling::SimulationState> state_;
 };
 
@@ -83,7 +83,7 @@ radius = 0.8
 class CheckpointCase {
  public:
   explicit CheckpointCase(const std::filesystem::path& scratch) : scratch_(scratch) {
-    coupling::write_checkpoint(scratch, run_.simulation());
+    run::write_checkpoint(scratch, run_.simulation());
     intact_ = bytes_of(scratch);
   }
 
@@ -92,12 +92,12 @@ class CheckpointCase {
   /// Refused by a SceneError, or read as what was written. Says whether it was taken.
   bool restore(const std::filesystem::path& file) {
     try {
-      coupling::read_checkpoint_scene(file);
-      coupling::restore_checkpoint(file, run_.simulation());
-    } catch (const coupling::SceneError&) {
+      run::read_checkpoint_scene(file);
+      run::restore_checkpoint(file, run_.simulation());
+    } catch (const run::SceneError&) {
       return false;
     }
-    coupling::write_checkpoint(scratch_, run_.simulation());
+    run::write_checkpoint(scratch_, run_.simulation());
     check(bytes_of(scratch_) == intact_, "a checkpoint that is not refused is restored to what was written");
     return true;
   }

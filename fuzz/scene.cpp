@@ -8,15 +8,15 @@
 #include <vector>
 
 #include "check.h"
-#include "coupling/errors.h"
-#include "coupling/plan.h"
 #include "one_thread.h"
-#include "scene_file.h"
+#include "run/errors.h"
+#include "run/plan.h"
+#include "scene/scene_file.h"
 
 namespace vesiflow::fuzz {
 namespace {
 
-using namespace coupling;
+using namespace run;
 
 /// Stands in for reading the files of shapes: an input must not name files of the machine it runs on, and no scene shall take
 /// longer to check than the next input is worth.
@@ -25,7 +25,7 @@ void refuse_files_and_costly(Scene& scene) {
   int markers = 0;
   for (std::size_t i = 0; i < scene.vesicles.size() && markers <= most_markers; ++i) {
     markers += 2 * scene.latitudes(i) * scene.latitudes(i);
-    if (scene.vesicles[i].file) throw SceneError("a scene of this fuzz target reads no files");
+    if (scene.surface_file(i).file) throw SceneError("a scene of this fuzz target reads no files");
   }
   if (markers > most_markers) throw SceneError("a scene of this fuzz target has at most 2000 markers");
 }

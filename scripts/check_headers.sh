@@ -33,3 +33,4 @@ check() {
 check vesicle "${vesicle[@]}"
 check fluid "${fluid[@]}"
 check coupling "${coupling[@]}"
+check run -Ilibrun/include "${coupling[@]}"

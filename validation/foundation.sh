@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs the cases of docs/validation.md (about five minutes on two cores) and writes their table to
+# Runs the cases of docs/studies/foundation.md (about five minutes on two cores) and writes their table to
 # validation/foundation.md.
 # usage: validation/foundation.sh [APPS_DIR]      (default build/release/apps; results in out/validation)
 set -euo pipefail

@@ -9,7 +9,7 @@ usage: scripts/python.sh validation/run.py CASE... [--coarse | --paper] [--jobs 
 Each case runs its scenes one after the other with one thread each (--jobs N: N at a time), and writes validation/results/CASE.LEVEL.json and
 docs/figures/CASE.png. --coarse (default) takes minutes, --paper takes the paper's resolution. What has been run is not run again, and a run that was
 interrupted goes on from its checkpoint: results are in out/validation. --docs puts the stored tables, the finer where
-there are both, into docs/validation.md.
+there are both, into docs/studies/paper_experiments.md and beyond_the_paper.md.
 """
 
 import argparse
@@ -27,7 +27,7 @@ from harness.store import compact, machine, revision, seconds
 
 RESULTS = runs.ROOT / "validation" / "results"
 FIGURES = runs.ROOT / "docs" / "figures"
-PAGE = runs.ROOT / "docs" / "validation.md"
+PAGES = [runs.ROOT / "docs" / "studies" / name for name in ("paper_experiments.md", "beyond_the_paper.md")]
 
 
 class Context:
@@ -97,7 +97,8 @@ def write_docs():
     rows = [[case, cases.load(case).TITLE, *(seconds(total[case].get(level)) for level in ("coarse", "paper"))] for case in cases.NAMES if case in total]
     rows.append(["all", "", *(seconds(sum(t.get(level, 0) for t in total.values())) for level in ("coarse", "paper"))])
     blocks["times"] = "\n" + tables.markdown(tables.table("", ["case", "what", "coarse", "paper"], rows)) + "\n"
-    PAGE.write_text(tables.insert(PAGE.read_text(), blocks))
+    for page in PAGES:
+        page.write_text(tables.insert(page.read_text(), blocks))
 
 
 def main():
@@ -109,7 +110,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1)")
     parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--list", action="store_true", help="list the cases")
-    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/validation.md")
+    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies")
     options = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
     if options.list:

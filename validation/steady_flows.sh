@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs duct_flow and lid_cavity on the grids of docs/validation.md and writes their tables to validation/duct_flow.md and
+# Runs duct_flow and lid_cavity on the grids of docs/studies/foundation.md and writes their tables to validation/duct_flow.md and
 # validation/lid_cavity.md, the numbers of the cavity to validation/lid_cavity.json, and the pictures in docs/images/fluid.
 # The ducts take a minute; the cavity takes most of an hour on one core, nearly all of it the grid of 96^3.
 # usage: validation/steady_flows.sh [APPS_DIR]      (default build/release/apps; results in out/validation)
@@ -22,7 +22,7 @@ duct() { # duct NAME OPTION...
 {
   echo "# Flow in rectangular ducts against the exact series"
   echo
-  echo "Revision $(revision), made by \`validation/steady_flows.sh\`. What it shows: [docs/validation.md](../docs/validation.md)."
+  echo "Revision $(revision), made by \`validation/steady_flows.sh\`. The conclusions are in [the study of the foundation](../docs/studies/foundation.md#the-fluid-alone)."
   echo
   for widths in "3 3" "3 2.25"; do
     read -ra half_widths <<<"$widths"
@@ -42,8 +42,8 @@ cavity=(--cells 32 48 64 96 --tolerance 2e-6)
 {
   echo "# The lid-driven cube beside published profiles"
   echo
-  echo "Made by \`lid_cavity ${cavity[*]}\` (\`validation/steady_flows.sh\`). What it shows:"
-  echo "[docs/validation.md](../docs/validation.md)."
+  echo "Made by \`lid_cavity ${cavity[*]}\` (\`validation/steady_flows.sh\`). The conclusions are in"
+  echo "[the study of the foundation](../docs/studies/foundation.md#the-fluid-alone)."
   echo
   scripts/python.sh validation/lid_cavity_table.py "$out/lid_cavity/lid_cavity.json"
 } >validation/lid_cavity.md

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-/// Exit codes of the programs that run no scene: where these have them, those of coupling::exit_code (docs/architecture.md).
+/// Exit codes of the programs that run no scene: where these have them, those of run::exit_code (docs/architecture.md).
 enum ExitCode { success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, out_of_memory = 5 };
 
 /// What the command line asks for cannot be done. The message names the option, the value and what is allowed.

@@ -5,15 +5,15 @@
 #include <algorithm>
 
 #include "command_line.h"
-#include "coupling/checkpoint.h"
-#include "coupling/errors.h"
 #include "coupling/flow.h"
-#include "coupling/plan.h"
-#include "coupling/run.h"
 #include "memory_use.h"
+#include "run/checkpoint.h"
+#include "run/errors.h"
+#include "run/plan.h"
+#include "run/run.h"
 #include "streams.h"
 
-using namespace vesiflow::coupling;
+using namespace vesiflow::run;
 
 namespace {
 
@@ -156,12 +156,12 @@ int run_scene_app(const SceneApp& app, int argc, char** argv) {
   check_source(arguments, directory);
   if (arguments.plan) {
     if (const std::string reason = put_out(describe_plan(scene, command_line.threads(), directory)); !reason.empty())
-      throw vesiflow::coupling::FileError("standard output: the plan cannot be written: " + reason);
+      throw vesiflow::run::FileError("standard output: the plan cannot be written: " + reason);
     return exit_code::success;
   }
 
   if (const std::string warning = memory_warning(scene); !warning.empty()) say("warning: {}\n", warning);
-  Simulation simulation(scene);
+  SceneSimulation simulation(scene);
   RunOptions options;
   options.program = app.name;
   options.scene_file = name;

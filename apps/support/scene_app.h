@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "coupling/scene.h"
+#include "run/scene.h"
 
 /// What sets one scene app apart from another.
 struct SceneApp {
   std::string name;
   std::string description;
   struct NamedFlow {
-    vesiflow::coupling::FlowType type;
+    vesiflow::run::FlowType type;
     std::string name;  ///< as scenes have it
   };
   std::vector<NamedFlow> flows = {};  ///< what flow.type may be; anything if empty

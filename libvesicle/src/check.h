@@ -27,6 +27,16 @@ void check_markers(const Array& array, const char* name, Eigen::Index markers) {
   throw std::invalid_argument(message.str());
 }
 
+/// Throws std::invalid_argument unless the array has that many rows and columns.
+template <class Array>
+void check_shape(const Array& array, const char* name, Eigen::Index rows, Eigen::Index columns) {
+  if (array.rows() == rows && array.cols() == columns) return;
+  std::ostringstream message;
+  message << name << " has " << array.rows() << " rows and " << array.cols() << " columns: must be " << rows << " and "
+          << columns;
+  throw std::invalid_argument(message.str());
+}
+
 /// Throws std::domain_error that names the first marker with a value that is not finite. `value` with its article: "a velocity".
 template <class Array>
 void check_finite(const Array& array, const char* value) {

@@ -17,7 +17,7 @@ TEST(Allocation, NoneInAWarmedUpStep) {
         [](const Vector3& r, double t) {
           return Vector3{r[2] * t, 0, 0};
         },
-        false);
+        WallMotion::unsteady);
     fluid.step(0.1);
     fluid.step(0.1);
     const long before = vesiflow::test::allocation_count();

@@ -31,7 +31,8 @@ inline std::ostream& operator<<(std::ostream& out, const Topology& topology) {
 }
 
 inline Grid with_topology(const Grid& grid, const Topology& topology) {
-  return {grid.lower, grid.upper, grid.cells, axes_of(topology.periodic), axes_of(topology.mirror)};
+  return {
+      grid.lower, grid.upper, grid.cells, {.periodic = axes_of(topology.periodic), .mirror = axes_of(topology.mirror)}};
 }
 
 inline Grid with_periodic_axes(const Grid& grid, int mask) {

@@ -52,10 +52,10 @@ TEST(TourOfLibfluid, ShowsWhatIsTested) {
 }
 
 TEST(TourOfLibfluid, Fields) {
-  const Grid grid({0, 0, 0}, {2, 2, 1}, {32, 32, 16},
-                  {true, true, false});  // periodic along x and y, walls at z = 0 and 1
-  Field<Cell> p(grid);                   // zero, ghosts too
-  FaceVector u(grid);                    // u.x, u.y, u.z
+  // Walls at z = 0 and 1.
+  const Grid grid({0, 0, 0}, {2, 2, 1}, {32, 32, 16}, {.periodic = {true, true, false}});
+  Field<Cell> p(grid);  // zero, ghosts too
+  FaceVector u(grid);   // u.x, u.y, u.z
   const double shear_rate = 3;
   for (int k = 0; k < u.x.extent(2); ++k)
     for (int j = 0; j < u.x.extent(1); ++j)
@@ -71,8 +71,7 @@ TEST(TourOfLibfluid, Fields) {
 TEST(TourOfLibfluid, HalfABox) {
   const auto moving = [](const Vector3& r, double) { return Vector3{r[2] * (4 - r[1] * r[1]), 0, 0}; };
   const Grid whole({-4, -2, -2}, {4, 2, 2}, {32, 24, 16});
-  const Grid half({-4, 0, -2}, {4, 2, 2}, {32, 12, 16}, {},
-                  {false, true, false});  // no periodic axis, a mirror at y = 0
+  const Grid half({-4, 0, -2}, {4, 2, 2}, {32, 12, 16}, {.mirror = {false, true, false}});
   NavierStokes in_whole(whole, {}, moving), in_half(half, {}, moving);
   for (int step = 0; step < 20; ++step) {
     in_whole.step(0.05);
@@ -115,7 +114,7 @@ TEST(TourOfLibfluid, StokesFlow) {
   stokes.update(mu);
   FaceVector force(grid), u(grid);
   Field<Cell> p(grid);
-  const StokesReport report = stokes.solve(force, WallVelocity(grid, shear, /*steady=*/true), u, p);
+  const StokesReport report = stokes.solve(force, WallVelocity(grid, shear), u, p);
 
   EXPECT_TRUE(report.converged);
 }
@@ -143,7 +142,7 @@ TEST(TourOfLibfluid, ChoiceOfASolver) {
       sample_viscosity(grid, [](const Vector3& r) { return std::hypot(r[0], r[1], r[2]) < 1 ? 20.0 : 1.0; });
 
   const auto problem = EllipticProblem::velocity(grid, EllipticForm::stress, 1.0, mu);
-  const SolverChoice choice = choose_solver(problem, {.memory_limit = 4e9});
+  const ChosenSolver choice = choose_solver(problem, {.memory_limit = 4e9});
   std::string what = name(choice.options), why = choice.reason;
 
   EXPECT_EQ(what, "pcg+fft");
@@ -167,8 +166,8 @@ TEST(TourOfLibfluid, AnswersWrongInputAsItSays) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const Grid grid({-1, -1, -1}, {1, 1, 1}, {8, 8, 8});
   const Grid large({-1, -1, -1}, {1, 1, 1}, {128, 128, 128});
-  const Grid channel({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {true, false, false});
-  const Grid half({-1, 0, -1}, {1, 1, 1}, {8, 4, 8}, {}, {false, true, false});
+  const Grid channel({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {true, false, false}});
+  const Grid half({-1, 0, -1}, {1, 1, 1}, {8, 4, 8}, {.mirror = {false, true, false}});
   const auto rest = [](const Vector3&, double) { return Vector3{}; };
   const auto field = [&](double value) {
     const auto mu = sample_viscosity(grid, [](const Vector3&) { return 2.0; });
@@ -193,7 +192,7 @@ TEST(TourOfLibfluid, AnswersWrongInputAsItSays) {
         Grid({0, 0, 0}, {1, 1, 1}, {8, 3, 8});
       },
       [&] {
-        Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {false, true, false}, {false, true, false});
+        Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}, {.periodic = {false, true, false}, .mirror = {false, true, false}});
       },
       [&] { NavierStokes(half, {}, [](const Vector3&, double) {
               return Vector3{0, 1, 0};

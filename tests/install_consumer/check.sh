@@ -50,7 +50,13 @@ for package in HDF5 HDF5C SUNDIALS spdlog fmt; do
 done
 consume vesicle curvatures "${no_optional[@]}"
 consume fluid channel "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
-consume coupling extension
+consume coupling tank_treading -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON -DCMAKE_DISABLE_FIND_PACKAGE_HDF5C=ON \
+  -DCMAKE_DISABLE_FIND_PACKAGE_tomlplusplus=ON
+if [[ $(wc -l <"$here/coupling/main.cpp") -ge 50 ]]; then
+  echo "tests/install_consumer/coupling/main.cpp: a program without a configuration file takes less than 50 lines" >&2
+  exit 1
+fi
+consume run extension
 
 # A component that is not there is refused by name.
 sed 's/COMPONENTS vesicle/COMPONENTS membrane/' "$here/vesicle/CMakeLists.txt" >"$scratch/CMakeLists.txt"

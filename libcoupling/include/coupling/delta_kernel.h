@@ -50,7 +50,7 @@ enum class Direction { normal, tangential };
 int support_width(DeltaKernel kernel, Direction direction = Direction::normal);
 
 /// Distance from a wall, in grid spacings, from which on the supports of a marker lie within the box.
-double wall_distance(DeltaKernel kernel);
+double wall_clearance(DeltaKernel kernel);
 
 /// phi(r): even, not negative, zero outside the support, sum 1 and first moment 0 over the grid for every position.
 /// \param r distance in grid spacings

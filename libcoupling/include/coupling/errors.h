@@ -1,22 +1,25 @@
 #pragma once
 
-#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace vesiflow::coupling {
 
-/// The scene, the command line or the checkpoint asks for something that cannot be done. The message names
-/// file, line, key, value and what is allowed.
-class SceneError : public std::runtime_error {
+/// Parameters ask for something that cannot be done. Each mistake names the parameter (`time.step`, `vesicles.0.radius`), its value and what is
+/// allowed; what() says all of them.
+class ParameterError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
-};
+  explicit ParameterError(const std::string& mistake) : ParameterError(std::vector<std::string>{mistake}) {}
+  explicit ParameterError(std::vector<std::string> mistakes)
+      : std::runtime_error(joined(mistakes)), mistakes_(std::move(mistakes)) {}
+  const std::vector<std::string>& mistakes() const { return mistakes_; }
 
-/// A file of results could not be written or read.
-class FileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
+  /// One mistake as it is, several as a numbered list, cut after a screenful.
+  static std::string joined(const std::vector<std::string>& mistakes);
+
+ private:
+  std::vector<std::string> mistakes_;
 };
 
 /// The state stopped being usable: not finite, a limit passed, a marker at a wall. `cause` says what went wrong,

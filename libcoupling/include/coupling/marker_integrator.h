@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
+
+#include "coupling/marker_motion.h"
 
 namespace vesiflow::coupling {
 
@@ -39,27 +42,28 @@ class MarkerIntegrator {
   virtual MarkerStatistics statistics() const = 0;
 };
 
-/// Ways of advancing markers that a scene can name in `time.markers`; docs/time_integration.md compares them.
-inline constexpr std::string_view marker_integrators[] = {"euler", "ab2", "arkode", "strain_relaxation"};
+/// Those that are by a MarkerIntegrator.
+inline constexpr std::array marker_integrators{MarkerMotion::euler, MarkerMotion::ab2, MarkerMotion::arkode,
+                                               MarkerMotion::strain_relaxation};
 
-/// Of "arkode": the local error of each sub-step is kept below relative |x| + absolute, root mean square over the state.
+/// Of arkode: the local error of each sub-step is kept below relative |x| + absolute, root mean square over the state.
 struct MarkerTolerances {
   double relative = 0.0;   ///< >= 0; 0 because positions have no natural origin
   double absolute = 1e-6;  ///< > 0
 };
 
-/// "euler":  X + dt U(X), the paper's Step 4, first order; stable for g = dt sigma0/(4 mu h) below 7 to 8.
-/// "ab2":    X + dt [(1 + r/2) U^k - r/2 U^{k-1}], r = dt over the last dt; second order, first step Euler; stable for about
-///           half of that g.
-/// "arkode": explicit Runge-Kutta of order three with sub-steps of its own choice (Bogacki-Shampine, SUNDIALS' ERKStep);
-///           no history.
-/// "strain_relaxation": markers as "euler", the rest is in the membrane.
-/// \throws std::invalid_argument for any other name, for tolerances out of range, and for "arkode" in a build without
+/// euler:  X + dt U(X), the paper's Step 4, first order; stable for g = dt sigma0/(4 mu h) below 7 to 8.
+/// ab2:    X + dt [(1 + r/2) U^k - r/2 U^{k-1}], r = dt over the last dt; second order, first step Euler; stable for about
+///         half of that g.
+/// arkode: explicit Runge-Kutta of order three with sub-steps of its own choice (Bogacki-Shampine, SUNDIALS' ERKStep);
+///         no history.
+/// strain_relaxation: markers as euler, the rest is in the membrane.
+/// \throws std::invalid_argument for any other motion, for tolerances out of range, and for arkode in a build without
 /// SUNDIALS
-std::unique_ptr<MarkerIntegrator> make_marker_integrator(std::string_view name, std::size_t size,
+std::unique_ptr<MarkerIntegrator> make_marker_integrator(MarkerMotion motion, std::size_t size,
                                                          const MarkerTolerances& tolerances = {});
 
-/// Whether this build has "arkode".
+/// Whether this build has arkode and implicit.
 bool have_sundials();
 
 }  // namespace vesiflow::coupling

@@ -66,7 +66,7 @@ class MarkerTransfer {
 
   DeltaKernel kernel() const { return kernel_; }
   /// Distance from a wall, in grid spacings, below which a marker is refused.
-  double wall_distance() const { return coupling::wall_distance(kernel_); }
+  double wall_clearance() const { return coupling::wall_clearance(kernel_); }
 
  private:
   // Along one axis: `count` points from `first` on, on a periodic axis continued at 0.

@@ -19,9 +19,6 @@ bool overlap(const vesicle::Surface& surface, const vesicle::VectorField& marker
 std::vector<double> nearest_distances(const fluid::Grid& grid, std::span<const vesicle::VectorField* const> membranes);
 
 /// The least distance of markers (markers x 3) in the box to its walls; infinite without walls.
-double wall_distance(const fluid::Grid& grid, const vesicle::VectorField& markers);
-
-/// Nearer than this many spacings to each other, or to a wall, membranes have a flow between them that the grid does not resolve.
-constexpr double least_resolved_gap = 2.0;
+double distance_to_walls(const fluid::Grid& grid, const vesicle::VectorField& markers);
 
 }  // namespace vesiflow::coupling

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,7 +11,7 @@
 #include "coupling/flow.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/phases.h"
-#include "coupling/scene.h"
+#include "coupling/simulation_parameters.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/diagnostics.h"
 #include "vesicle/membrane.h"
@@ -42,8 +43,15 @@ struct SimulationState {
   fluid::FluidClock clock;
   std::vector<VesicleState> vesicles;
   std::vector<double> step_control;    ///< of adaptive steps, and of a start in parts; else empty
-  std::shared_ptr<const Start> start;  ///< none where vesicles have started as the scene says
+  std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
 };
+
+/// A force of a program's own on the fluid at the markers of a vesicle, per area of the membrane: adds to `force` (markers x 3). Called in each step,
+/// and in each evaluation of an implicit one, by one thread, with the geometry that the membrane's own forces are of.
+using MembraneForce =
+    std::function<void(double time, std::size_t vesicle, const vesicle::Surface& surface, vesicle::VectorField& force)>;
+/// A force of a program's own on the fluid, per volume, at a point and time. Called by one thread.
+using FluidForce = std::function<fluid::Vector3(const fluid::Vector3& x, double time)>;
 
 struct ImmersedVesicle;
 class ExternalForces;
@@ -57,21 +65,21 @@ class BlowUpGuard;
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
 class Simulation {
  public:
-  /// The scene as it starts, with the flow it names.
-  /// \throws SceneError for a scene that cannot be computed
-  explicit Simulation(const Scene& scene);
-  /// The same with a boundary velocity of one's own instead of the scene's flow (flow.type becomes "custom"); it is also
-  /// the initial velocity if flow.start = "flow". `steady` says that it does not depend on time.
-  Simulation(const Scene& scene, const fluid::BoundaryVelocity& flow, bool steady);
-  /// The same with all that a flow can say.
-  Simulation(const Scene& scene, const Flow& flow);
+  /// Vesicles as the parameters start them, in a flow.
+  /// \throws ParameterError for what cannot be computed
+  Simulation(const SimulationParameters& parameters, const Flow& flow);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One time step (Steps 1 to 5 of the paper), of the scene's length or, if time.adaptive, as long as its errors allow: a step
+  /// Adds a force on the membranes from the next step on. It is no part of checkpoints: a program that restarts adds it again.
+  void add_force(MembraneForce force);
+  /// Sets the force on the fluid from the next step on, evaluated at the faces of the grid in each step, or none (nullptr). Not in checkpoints.
+  void set_fluid_force(FluidForce force);
+
+  /// One time step (Steps 1 to 5 of the paper), of length time.step or, if time.adaptive, as long as its errors allow: a step
   /// whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a look at the meshes and,
-  /// where one has passed a limit of the scene, its redistribution along the membrane. With markers that follow the shape, the first of equal steps
+  /// where one has passed a limit of `mesh`, its redistribution along the membrane. With markers that follow the shape, the first of equal steps
   /// are taken in parts where shapes start far from rest; each ends when it would have ended.
   /// \throws SimulationStopped when the state is not finite or grows by itself, a limit is passed or a marker meets a wall, with adaptive steps
   /// when that happens, or the errors are too large, at time.smallest_step: the state is then that before the step
@@ -83,7 +91,7 @@ class Simulation {
   double time_step() const;
   /// Number of the step that reaches time.end, if steps stay as long as they are. Of equal steps.
   long last_step() const { return last_step_; }
-  /// Takes steps of that length from now on: time.step of scene() becomes dt. For equal steps.
+  /// Takes steps of that length from now on: time.step of parameters() becomes dt. For equal steps.
   /// \throws std::invalid_argument when it is not positive and finite, or steps are adaptive
   void set_time_step(double dt);
   /// Adaptive steps that were taken back.
@@ -95,7 +103,8 @@ class Simulation {
 
   double time() const { return fluid_.time(); }
   long steps() const { return static_cast<long>(fluid_.steps()) - extra_steps_; }
-  const Scene& scene() const { return scene_; }
+  const SimulationParameters& parameters() const { return parameters_; }
+  const Flow& flow() const { return flow_; }
 
   /// Redistributions that the last step ended with.
   std::span<const Redistribution> last_redistributions() const { return last_redistributions_; }
@@ -126,7 +135,7 @@ class Simulation {
   Phases phases() const;
   PartEntries part_entries() const;
 
-  /// Starts anew from membranes, of which there must be one for each vesicle, in the place of the scene's, and from a velocity, whose
+  /// Starts anew from membranes, of which there must be one for each vesicle, in the place of those of the parameters, and from a velocity, whose
   /// divergence-free part is taken, and a pressure on its grid. For a simulation that has taken no step; see start_from().
   /// \throws std::invalid_argument when sizes differ or a number is not finite, std::domain_error for a membrane without a geometry,
   /// SimulationStopped for a marker at a wall
@@ -140,8 +149,6 @@ class Simulation {
   void restore(const SimulationState& state);
 
  private:
-  Simulation(const Scene& scene, const Flow& flow, FlowType type);
-
   void make_vesicles();
   void take_step(double dt);
   void take_adaptive_step();
@@ -155,6 +162,7 @@ class Simulation {
   void solve_step(double dt);
   void compute_forces(double dt);
   void spread_forces();
+  void put_fluid_force();
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
@@ -164,13 +172,16 @@ class Simulation {
   void check_growth();
   void plan_last_step();
 
-  Scene scene_;
+  SimulationParameters parameters_;
+  Flow flow_;
   std::unique_ptr<ViscosityContrast> contrast_;  // where there is one
   fluid::NavierStokes fluid_;
   std::shared_ptr<const Start> start_;
   std::vector<std::unique_ptr<ImmersedVesicle>> vesicles_;
+  std::vector<MembraneForce> own_forces_;  // those that the program has added
+  FluidForce fluid_force_;                 // the same
   std::unique_ptr<ExternalForces> external_forces_;
-  std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if the scene wants none
+  std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if none are wanted
   std::vector<Redistribution> last_redistributions_;
   Phases phases_;
   std::unique_ptr<ImplicitStep> implicit_step_;   ///< of time.markers = "implicit"
@@ -183,10 +194,5 @@ class Simulation {
   long last_step_ = 0;
   std::unique_ptr<BlowUpGuard> guard_;
 };
-
-/// The scene's box as a grid.
-fluid::Grid grid_of(const Scene& scene);
-/// The scene's fluid parameters, with viscosity 1: a contrast needs the membranes.
-fluid::FluidParameters fluid_parameters_of(const Scene& scene);
 
 }  // namespace vesiflow::coupling

@@ -14,6 +14,12 @@ namespace vesiflow::fluid {
 // Velocity of the walls (dimensionless) at a position on a wall and a time.
 using BoundaryVelocity = std::function<Vector3(const Vector3& position, double time)>;
 
+// Whether the velocity of the walls depends on the time.
+enum class WallMotion {
+  steady,   // it is sampled once, at time zero
+  unsteady  // it is sampled at each call of evaluate() with a new time
+};
+
 // The Dirichlet data of the fluid velocity u on the walls: two for every axis that is not periodic, or one if it has a
 // mirror.
 //
@@ -22,13 +28,11 @@ using BoundaryVelocity = std::function<Vector3(const Vector3& position, double t
 // the same line, 2 * wall face - inner face, and so do edges and corners, so that a linear flow is continued
 // exactly. Across a periodic axis ghosts are the points of the other end. The component normal to a mirror is zero on
 // the faces there and minus the inner face in the ghost; tangential components have the point inside as their ghost.
-//
-// Steady data is sampled once; other data at each call of evaluate() with a new time.
 class WallVelocity {
  public:
   // Samples the function at time zero; throws what evaluate() throws, and std::invalid_argument for an empty
   // function (which is right only if there are no walls).
-  WallVelocity(const Grid& grid, BoundaryVelocity velocity, bool steady);
+  WallVelocity(const Grid& grid, BoundaryVelocity velocity, WallMotion motion = WallMotion::steady);
 
   // Samples the function at the given time, unless it is steady. An incompressible fluid needs zero net flux
   // through the walls. Data that has it is sampled at face centres with an error O(h^2); such a remainder is
@@ -40,7 +44,7 @@ class WallVelocity {
   void evaluate(double time);
   static constexpr double max_relative_flux = 0.01;
 
-  bool steady() const { return steady_; }
+  bool steady() const { return motion_ == WallMotion::steady; }
   double time() const { return time_; }
   // Net outward flux of the sampled data, before the remainder was taken out.
   double net_flux() const { return net_flux_; }
@@ -78,7 +82,7 @@ class WallVelocity {
 
   Grid grid_;
   BoundaryVelocity velocity_;
-  bool steady_;
+  WallMotion motion_;
   double time_ = 0.0;
   double net_flux_ = 0.0;
   std::vector<Plane> spare_planes_;  // of the time before, if they change

@@ -74,7 +74,8 @@ struct EllipticProblem {
   bool is_vector_ = false;
 };
 
-// y = A x. x and y have the shapes of the problem and must not overlap. Allocates an array per block, for the ghosts.
+// y = A x. x and y must not overlap. Allocates an array per block, for the ghosts. Throws std::invalid_argument, as
+// relative_residual() does, unless the arrays have the shapes of the problem.
 void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y);
 
 // max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace; infinite if x is not

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "fluid/elliptic_problem.h"
@@ -128,7 +129,16 @@ struct AutoOptions {
 
 using SolverOptions = std::variant<FftOptions, CholmodOptions, PcgOptions, AutoOptions>;
 
-// "fft", "cholmod", "pcg+fft", "pcg+cholmod" or "auto".
+// The solvers by name, for who reads or writes it: scenes, command lines, reports.
+enum class SolverKind { automatic, fft, cholmod, pcg };
+inline constexpr std::array<std::string_view, 4> solver_names{"auto", "fft", "cholmod", "pcg"};  // by SolverKind
+constexpr const char* name(SolverKind kind) {
+  return solver_names[static_cast<std::size_t>(kind)].data();  // of literals
+}
+// A solver of a kind with the options it has by default.
+SolverOptions default_options(SolverKind kind);
+
+// "fft", "cholmod", "auto"; of "pcg" with its preconditioner: "pcg+fft", "pcg+cholmod".
 std::string name(const SolverOptions& options);
 
 // What "auto" takes for a problem, and why in words: "fft" where it is exact; else "cholmod" (in builds that have it) if a
@@ -137,11 +147,11 @@ std::string name(const SolverOptions& options);
 // A lagged factor does not pay: at 24^3 in the stress form, with ratio 20 and a sphere that has moved by half a cell
 // since, it takes 11 iterations and 0.39 s where "fft" takes 37 and 0.07 s.
 // Throws std::invalid_argument if a value of mu is not finite and > 0.
-struct SolverChoice {
+struct ChosenSolver {
   SolverOptions options;
   std::string reason;
 };
-SolverChoice choose_solver(const EllipticProblem& problem, const AutoOptions& options);
+ChosenSolver choose_solver(const EllipticProblem& problem, const AutoOptions& options);
 
 // A solver updated to the problem. Throws std::invalid_argument, naming the alternatives, for what the build
 // or the backend cannot do.

@@ -9,6 +9,12 @@ namespace vesiflow::fluid {
 
 using Vector3 = std::array<double, 3>;
 
+// What the ends of the axes are, where they are not two walls.
+struct AxisEnds {
+  std::array<bool, 3> periodic{};  // per axis: what leaves at one end comes in at the other
+  std::array<bool, 3> mirror{};    // per axis: the lower end is a plane of symmetry in the place of a wall
+};
+
 // A box [lower, upper] cut into cells[0] x cells[1] x cells[2] equal cells; lengths are dimensionless (in
 // units of the vesicle's radius). The mesh width may differ from axis to axis, and any number of cells from 4
 // up is allowed.
@@ -27,15 +33,13 @@ struct Grid {
 
   // Throws std::invalid_argument, naming the value, unless upper > lower (both finite) and
   // min_cells <= cells <= max_cells, and if an axis is both periodic and has a mirror.
-  Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells,
-       const std::array<bool, 3>& periodic = {false, false, false},
-       const std::array<bool, 3>& mirror = {false, false, false});
+  Grid(const Vector3& lower, const Vector3& upper, const std::array<int, 3>& cells, const AxisEnds& ends = {});
 
   Vector3 lower;
   Vector3 upper;
   std::array<int, 3> cells;
-  std::array<bool, 3> periodic;  // per axis: what leaves at one end comes in at the other; else there are walls
-  std::array<bool, 3> mirror;    // per axis: the lower end is a plane of symmetry in the place of a wall
+  std::array<bool, 3> periodic;  // see AxisEnds
+  std::array<bool, 3> mirror;
 
   double length(int axis) const { return upper[axis] - lower[axis]; }
   double spacing(int axis) const { return length(axis) / cells[axis]; }

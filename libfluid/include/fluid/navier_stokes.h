@@ -95,7 +95,7 @@ class NavierStokes {
   // out of range, wall data with a net flux (WallVelocity), a pressure solver that is not available, and a grid
   // that would take more memory than the machine has. The velocity solver is made, or refused, in the first step.
   NavierStokes(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary = nullptr,
-               bool steady_boundary = true);
+               WallMotion motion = WallMotion::steady);
   ~NavierStokes();
   NavierStokes(NavierStokes&&) noexcept;
   NavierStokes& operator=(NavierStokes&&) noexcept;
@@ -137,7 +137,7 @@ class NavierStokes {
 
   // Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver
   // for the exception). Throws
-  // std::invalid_argument unless dt > 0 is finite and a field of viscosity is > 0, and std::runtime_error, with the step
+  // std::invalid_argument unless dt > 0 is finite, a field of viscosity is > 0, and both it and the force are on this grid, and std::runtime_error, with the step
   // and the time, if the solution is not finite or a solver has not converged; the state is then lost, but for retry().
   void step(double dt);
 

@@ -7,6 +7,7 @@ namespace vesiflow::fluid {
 
 // Sets the points of `to` that lie in the box of `from` by trilinear interpolation, exact for linear fields. Others are left as
 // they are. Reads the ghosts of `from`, writes none.
+// Throws std::invalid_argument if the components of a vector are on different grids.
 void resample(const Field<Cell>& from, Field<Cell>& to);
 void resample(const FaceVector& from, FaceVector& to);
 

@@ -67,8 +67,9 @@ class StokesSolver {
   const Grid& grid() const;
   const StokesOptions& options() const;
 
-  // Bytes that a solver for a constant or a variable viscosity takes, within a few per cent. Nothing is allocated.
-  static std::size_t estimate_memory(const Grid& grid, bool variable_viscosity);
+  // Bytes that a solver takes for this viscosity, or another one that is a number or a field as well, within a few per cent.
+  // Nothing is allocated.
+  static std::size_t estimate_memory(const Grid& grid, const Viscosity& mu);
 
  private:
   class System;

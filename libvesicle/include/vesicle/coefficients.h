@@ -7,6 +7,9 @@
 
 namespace vesiflow::vesicle {
 
+/// The paper's 2/3 rule: the number of degrees n < 2N/3.
+int two_thirds_degrees(int latitudes);
+
 /// Spherical-harmonic coefficients f_n^m of `fields` real fields, degrees 0 <= n < degrees and orders 0 <= m
 /// <= n; negative orders follow from f_n^{-m} = (-1)^m conj(f_n^m). See SphericalHarmonics for the expansion.
 ///
@@ -42,7 +45,7 @@ class Coefficients {
   void truncate(int k);
 
   /// The two-thirds rule: keeps the degrees n < 2p/3, whose products of two alias only onto what it removes.
-  void truncate_to_two_thirds() { truncate((2 * degrees_ + 2) / 3); }
+  void truncate_to_two_thirds() { truncate(two_thirds_degrees(degrees_)); }
 
   /// Exponential filter: degree n times exp(-strength (n / (p - 1))^order), of which `strength` = 36 takes the highest
   /// degree p - 1 to round-off (Hou & Li, J. Comput. Phys. 226, 379 (2007)).

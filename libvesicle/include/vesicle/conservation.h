@@ -30,18 +30,18 @@ class ConservationProjection {
 
   /// Velocity, shape (markers, 3): U += (a + F[2 H] b) n so that afterwards int U . n dA = -(V - V0)/dt and
   /// int 2 H U . n dA = -(A - A0)/dt; moving with U for dt restores both to O(dt^2).
-  /// @throws std::invalid_argument unless dt is finite and > 0; std::domain_error if volume and area cannot both be met because
+  /// @throws std::invalid_argument unless dt is finite and > 0, or for a wrong size or a surface on another grid; std::domain_error if volume and area cannot both be met because
   /// H is nearly constant (a sphere), or if the velocity or its correction is not finite (the velocity is then as it was).
   void correct_velocity(const Surface& surface, double dt, VectorField& velocity);
 
   /// Velocity, shape (markers, 3): changed along the directions of displacements so that what is conserved does not change, whether
   /// the surface has its target values or not: int U . n dA = 0 and int 2 H U . n dA = 0.
-  /// @throws std::domain_error as above.
+  /// @throws as above.
   void remove_rates(const Surface& surface, VectorField& velocity);
 
   /// Displacement D, shape (markers, 3): D += (a + F[2 H] b) n, with n and H before the move, so that X + D encloses V0 and has
   /// area A0 to a relative 1e-13. Newton's method; meant for D small beside the size of the surface.
-  /// @throws std::domain_error as above, or if the iteration does not converge.
+  /// @throws as above, and std::domain_error if the iteration does not converge.
   void correct_displacement(const Surface& surface, VectorField& displacement);
 
   /// The share of 2 H that varies over the surface, 1 - (int H dA)^2 / (A int H^2 dA) in [0, 1): small near a sphere, where volume and

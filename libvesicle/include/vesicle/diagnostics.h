@@ -45,10 +45,6 @@ double inclination_angle(const VolumeMoments& moments);
 /// finite.
 double tank_treading_frequency(const Surface& surface, const Vector3& centroid, const VectorField& velocity);
 
-/// Fraction of the energy of the position coefficients (degrees n >= 1) in the top third of the degrees, n >=
-/// 2N/3. Near 0 for a resolved shape; growth announces loss of resolution.
-double spectrum_tail(const Surface& surface);
-
 /// What is recorded of a membrane at one time. Errors are relative to the initial values. A membrane that has turned inside out
 /// has no reduced volume, excess area and deformation: NaN.
 struct Diagnostics {

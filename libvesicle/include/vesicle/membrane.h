@@ -91,7 +91,7 @@ class Membrane {
 
   /// Changes a displacement of the markers, shape (markers, 3), so that it ends at the volume and area that are kept by
   /// projection, to a relative 1e-13: beyond what filter_velocity does for the velocity. Nothing without projections.
-  /// @throws as ConservationProjection::correct_displacement.
+  /// @throws std::invalid_argument for a wrong size, otherwise as ConservationProjection::correct_displacement.
   void correct_displacement(VectorField& displacement);
 
   /// Ends a step: updates the target areas by Eqs. (33) and (32) with the geometry of the old positions

@@ -18,9 +18,6 @@ enum class FilterOrder {
   components,
 };
 
-/// The paper's 2/3 rule: the number of degrees n < 2N/3.
-int two_thirds_degrees(int latitudes);
-
 /// The velocity filter that keeps the marker mesh smooth. The normal velocity is only dealiased; the
 /// tangential one, which does not change the shape, keeps few degrees.
 class MeshFilter {
@@ -30,7 +27,7 @@ class MeshFilter {
   MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_degrees, int tangential_degrees);
 
   /// filtered: shape (markers, 3), resized if needed; must not be `velocity`.
-  /// @throws std::invalid_argument if velocity has the wrong size, std::domain_error if it is not finite (filtered is then as it
+  /// @throws std::invalid_argument if velocity has the wrong size or the surface lives on another grid, std::domain_error if velocity is not finite (filtered is then as it
   /// was).
   void apply(const Surface& surface, const VectorField& velocity, VectorField& filtered);
 
@@ -63,12 +60,13 @@ class TargetAreaUpdate {
   /// One step of Eqs. (33) and (32) with the geometry before the move:
   ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
   /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
-  /// @throws std::invalid_argument for a wrong size, std::domain_error if a result is not finite and > 0 (target_areas is as it
+  /// @throws std::invalid_argument for a wrong size or a surface on another grid, std::domain_error if a result is not finite and > 0 (target_areas is as it
   /// was).
   void apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered, double dt,
              double total_area, ScalarField& target_areas);
 
  private:
+  SphereGrid grid_;
   std::optional<SphericalHarmonics> dealiasing_;
   Coefficients coefficients_;
   VectorField slip_;

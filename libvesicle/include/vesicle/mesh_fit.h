@@ -38,8 +38,8 @@ int default_fit_degrees(Eigen::Index vertices, int latitudes);
 /// Fits spherical harmonics of degree n < degrees to a closed triangle mesh of genus zero, star-shaped or not:
 ///   minimise sum_i w_i |X(y_i) - x_i|^2 + lambda sum_{n,m} a_n |X_n^m|^2
 /// over X and the places y_i of the vertices x_i on the unit sphere. The y_i start as a map of the mesh to the sphere that
-/// neither folds nor crowds (src/sphere_map.h) and move to the foot points of the x_i on X; w_i is the share of a vertex
-/// of the sphere, a_n the weight of the mesh energy (redistribution.h), and lambda makes the error of prediction least, at the
+/// neither folds nor crowds (src/shapes/sphere_map.h) and move to the foot points of the x_i on X; w_i is the share of a vertex
+/// of the sphere, a_n the weight of the mesh energy (mesh_energy.h), and lambda makes the error of prediction least, at the
 /// vertices by generalised cross validation and between them against a smooth interpolant: a thin-plate spline on the sphere
 /// (G. Wahba, SIAM J. Sci. Stat. Comput. 2 (1981) 5) of few degrees.
 /// A mesh that turns inward everywhere is taken as if it turned outward. vertices degrees^4 operations in each of at most eight

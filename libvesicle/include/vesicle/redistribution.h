@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "vesicle/mesh_energy.h"
 #include "vesicle/mesh_quality.h"
 #include "vesicle/point_evaluation.h"
 #include "vesicle/spherical_harmonics.h"
@@ -24,24 +25,19 @@ struct RedistributionLimits {
 struct RedistributionReport {
   bool moved = false;         ///< whether there is a new mesh
   MeshQuality before, after;  ///< after = before unless moved
-  double energy_before = 0;   ///< E below
+  double energy_before = 0;   ///< mesh energy E
   double energy_after = 0;
   int iterations = 0;     ///< Gauss-Newton steps
   double truncation = 0;  ///< greatest distance by which keeping fewer degrees took a marker off the old surface
 };
 
-/// a_n of the mesh energy below, for degree n >= 0 (0 for n = 0 and 1).
-double mesh_energy_weight(int degree);
-
 /// Moves the markers of a mesh along its surface, leaving the shape alone: the surface X(x), x on the unit sphere, becomes
-/// X(y(x)) with y a smooth one-to-one map of the sphere chosen to minimise
-///   E = 1/2 sum_{n,m} a_n |X_n^m|^2,  a_n = (n - 1) n (n + 1) (n + 2) = (Lap + 2) Lap,
-/// which is zero for a linear image of the sphere, the usual mesh of an ellipsoid, and weighs high degrees: the map under which
-/// the shape needs the fewest degrees. (Rahimian, Veerapaneni, Zorin & Biros, J. Comput. Phys. 298 (2015) 766, move markers by
-/// pseudo-time steps down such an energy; here by Gauss-Newton steps.)
+/// X(y(x)) with y a smooth one-to-one map of the sphere chosen to minimise the mesh energy E of X o y (mesh_energy.h). (Rahimian,
+/// Veerapaneni, Zorin & Biros, J. Comput. Phys. 298 (2015) 766, move markers by pseudo-time steps down such an energy; here by
+/// Gauss-Newton steps.)
 ///
-/// a_n is mesh_energy_weight(n). One step finds the tangential displacement w that minimises E to second order,
-///   P (A + mu) P w = -P A X,  A = diag(a_n), P = I - n n^T,
+/// One step finds the tangential displacement w that minimises E to second order,
+///   P (A + mu) P w = -P A X,  A = diag(mesh_energy_weight(n)), P = I - n n^T,
 /// by a few preconditioned conjugate gradients, pulls it back to the sphere and moves y, with step halving until E falls and the
 /// Jacobian of y stays positive. Markers are always the original expansion evaluated at y (PointEvaluation), so they
 /// lie on the original surface to round-off; what changes the shape is only the truncation of X o y.
@@ -70,21 +66,19 @@ class MeshRedistribution {
   void carry(ScalarField& field) const;
 
  private:
-  double energy() const;
+  double energy() const { return mesh_energy(surface_.position_coefficients()); }
   void find_displacement();
   void pull_back();
   bool is_one_to_one(const VectorField& map);
   bool move(const Coefficients& original);
   double truncate();
-  void project(VectorField& field) const;
-  void apply_operator(const VectorField& field, VectorField& result);
-  void weigh(const VectorField& field, bool inverse, VectorField& result);
   double inner(const VectorField& a, const VectorField& b) const;
 
   Surface surface_;  // X o y
   SphericalHarmonics smoothing_;
   std::optional<SphericalHarmonics> truncation_;
   PointEvaluation evaluation_;
+  MeshEnergyDescent descent_;
   VectorField map_, map_theta_, map_phi_, trial_map_, trial_positions_;
   VectorField displacement_, residual_, direction_, product_, preconditioned_, map_step_, old_positions_;
   mutable Coefficients coefficients_;

@@ -26,7 +26,7 @@ class Resampling {
 /// A membrane's state on another mesh of the same surface. The strains ln(dA/dA0) and ln(dA/dA(0)) and the fields stay with the
 /// material; target areas and initial areas keep their totals and the initial volume is kept, so that errors of area and volume
 /// are against the same values as before. As it is if both grids are the same.
-/// @throws std::domain_error if the surface has no geometry on the new mesh (Surface::update).
+/// @throws std::invalid_argument if an array of the state has not the size of the grid it is from, std::domain_error if the surface has no geometry on the new mesh (Surface::update).
 MembraneState resample(const MembraneState& state, const SphereGrid& from, const SphereGrid& to);
 
 }  // namespace vesiflow::vesicle

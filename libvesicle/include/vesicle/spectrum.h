@@ -48,6 +48,10 @@ class Spectrum {
 /// ellipsoid is of degree one.)
 Spectrum mean_curvature_spectrum(const Surface& surface);
 
+/// Fraction of the energy of the position coefficients (degrees n >= 1) in the top third of the degrees, n >=
+/// 2N/3. Near 0 for a resolved shape; growth announces loss of resolution.
+double spectrum_tail(const Surface& surface);
+
 /// How well N latitudes resolve a shape, by the degrees of its mean curvature that are more than the round-off of its positions.
 struct Resolution {
   int latitudes = 0;

@@ -58,7 +58,7 @@ class Surface {
   /// (1/3) sum X . n dA.
   double volume() const { return volume_; }
 
-  /// sum f dA for a scalar field of shape (markers).
+  /// sum f dA for a scalar field of shape (markers). This and what follows throw std::invalid_argument for a wrong size.
   double integral(const ScalarField& field) const;
   /// sum F dA, component by component.
   Vector3 integral(const VectorField& field) const;
@@ -70,7 +70,7 @@ class Surface {
   /// Surface divergence of any vector field, tangent or not, Eq. (12).
   void divergence(const VectorField& vector, ScalarField& result) const;
   /// max |div U| over the markers.
-  /// @throws std::invalid_argument for a wrong size, std::domain_error if the vectors are not finite.
+  /// @throws also std::domain_error if the vectors are not finite.
   double max_divergence(const VectorField& vector) const;
   /// div(s P), P = I - n n^T, row by row with Eq. (12): the divergence form of Eq. (20). Six distinct fields.
   void projector_divergence(const ScalarField& scalar, VectorField& result) const;

@@ -20,13 +20,15 @@ class SurfaceGeometry {
  public:
   explicit SurfaceGeometry(const SphereGrid& grid);
 
-  /// Recomputes the geometry up to the given detail. The harmonics must live on the grid of this geometry.
-  /// @throws std::domain_error if an area element is zero or not finite: the markers have folded or
+  /// Recomputes the geometry up to the given detail.
+  /// @throws std::invalid_argument unless the harmonics live on the grid of this geometry and the positions have three fields,
+  /// std::domain_error if an area element is zero or not finite: the markers have folded or
   /// collapsed.
   void update(const SphericalHarmonics& harmonics, const Coefficients& positions,
               GeometryDetail detail = GeometryDetail::curvature);
 
   /// Adds the curvatures to a geometry of the same positions that lacks them.
+  /// @throws std::invalid_argument as update().
   void add_curvature(const SphericalHarmonics& harmonics, const Coefficients& positions);
 
   bool has_curvature() const { return has_curvature_; }
@@ -55,10 +57,12 @@ class SurfaceGeometry {
   const VectorField& phi_phi() const { return phi_phi_; }
 
  private:
+  void check_arguments(const SphericalHarmonics& harmonics, const Coefficients& positions) const;
   void check_area_elements() const;
   void update_first_form();
   void update_second_form();
 
+  SphereGrid grid_;
   bool has_curvature_ = false;
   VectorField theta_, phi_, theta_theta_, theta_phi_, phi_phi_;
   VectorField dual_theta_, dual_phi_, normal_;

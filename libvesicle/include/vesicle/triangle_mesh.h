@@ -21,11 +21,12 @@ struct TriangleMesh {
 void check_closed_genus_zero(const TriangleMesh& mesh);
 
 /// Checks that no triangle cuts through another that has no vertex in common with it. Touching is no crossing.
-/// @throws std::domain_error that names two that do.
+/// @throws std::domain_error that names two that do, or a vertex number out of range.
 void check_no_crossings(const TriangleMesh& mesh);
 
 /// Volume (1/6) sum det(a, b, c) over the triangles of a closed mesh, > 0 when they turn outward (counterclockwise seen
 /// from outside), and centroid of the enclosed volume.
+/// @throws std::domain_error that names a vertex number out of range.
 struct EnclosedVolume {
   double volume = 0;
   Vector3 centroid = Vector3::Zero();

@@ -1,43 +1,40 @@
-// A scene and a flow of one's own: a vesicle stretched by uniaxial extension u = rate (-x/2, -y/2, z).
+// A simulation without any configuration file: a vesicle in shear flow, with a force of the program's own that keeps it in place.
 #include <cstdio>
+#include <numbers>
 
-#include "coupling/run.h"
-
-namespace {
+#include "coupling/errors.h"
+#include "coupling/flow.h"
+#include "coupling/simulation.h"
 
 using namespace vesiflow;
 
-coupling::Scene scene() {
-  coupling::Scene scene;
-  scene.title = "A prolate vesicle in extensional flow";
-  scene.domain = {.lower = {-3, -3, -3}, .upper = {3, 3, 3}, .cells = {32, 32, 32}};
-  scene.mesh.latitudes = 24;
-  scene.membrane.sigma0 = 300;
-  scene.time.step = 1.0 / 96;
-  scene.time.end = 0.25;
-  scene.output = {.vesicle_every = 0, .fluid_every = 0, .checkpoint_every = 0};  // needs no HDF5
-  scene.vesicles.resize(1);
-  scene.vesicles[0].reduced_volume = 0.9;
-  coupling::check_scene(scene, "extension");
-  return scene;
-}
+int main() try {
+  coupling::SimulationParameters parameters;
+  parameters.domain = {.lower = {-3, -3, -3}, .upper = {3, 3, 3}, .cells = {32, 32, 32}};
+  parameters.mesh.latitudes = 24;
+  parameters.time.step = 1.0 / 24;
+  parameters.time.end = 1.0;
+  parameters.vesicles.resize(1);
+  parameters.vesicles[0].reduced_volume = 0.9;
+  parameters.vesicles[0].rotation_deg = 60;
 
-int extension(int argc, char** argv) {
-  constexpr double rate = 0.5;
-  const auto flow = [](const fluid::Vector3& x, double) {
-    return fluid::Vector3{-rate / 2 * x[0], -rate / 2 * x[1], rate * x[2]};
-  };
-  coupling::Simulation simulation(scene(), flow, /*steady=*/true);
-  coupling::run(simulation, {.program = "extension", .directory = argc > 1 ? argv[1] : "out", .quiet = true});
-
-  const vesicle::Diagnostics end = simulation.measure().front();
-  std::printf("t = %g: semi-axes %.4f %.4f %.4f, area error %.1e, volume error %.1e\n", simulation.time(),
-              end.semi_axes[0], end.semi_axes[1], end.semi_axes[2], end.area_error, end.volume_error);
-  return coupling::exit_code::success;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
-  return vesiflow::coupling::exit_code_of(extension, argc, argv);
+  coupling::Simulation simulation(parameters, coupling::shear_flow(1.0, parameters.domain));
+  simulation.add_force([](double, std::size_t, const vesicle::Surface& membrane, vesicle::VectorField& force) {
+    const vesicle::ScalarField& area = membrane.area_weight();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double centre = (membrane.positions().col(axis) * area).sum() / area.sum();
+      force.col(axis) -= 10.0 * centre;
+    }
+  });
+  while (!simulation.finished()) {
+    simulation.step();
+    const vesicle::Diagnostics now = simulation.measure().front();
+    if (simulation.steps() % 6 == 0)
+      std::printf("t = %.2f  angle %5.1f degrees  area error %.1e\n", simulation.time(),
+                  now.inclination_angle * 180.0 / std::numbers::pi, now.area_error);
+  }
+  return 0;
+} catch (const coupling::ParameterError& error) {
+  std::fprintf(stderr, "error: %s\n", error.what());
+  return 2;
 }

@@ -9,7 +9,7 @@
 using namespace vesiflow::fluid;
 
 int main() try {
-  const Grid grid({0, 0, 0}, {2, 2, 1}, {32, 32, 16}, {true, true, false});
+  const Grid grid({0, 0, 0}, {2, 2, 1}, {32, 32, 16}, {.periodic = {true, true, false}});
   const auto wall = [](const Vector3& r, double t) { return Vector3{r[2] > 0.5 ? std::tanh(t) : 0.0, 0.0, 0.0}; };
 
   FluidParameters parameters;
@@ -18,7 +18,7 @@ int main() try {
     const double distance = std::hypot(r[0] - 1, r[1] - 1, r[2] - 0.5) - 0.3;
     return 1 + 2 * (1 - std::tanh(distance / grid.spacing(0)));  // 5 inside, 1 outside
   });
-  NavierStokes flow(grid, parameters, wall, /*steady_boundary=*/false);
+  NavierStokes flow(grid, parameters, wall, WallMotion::unsteady);
 
   std::printf("  time  speed above the ball  divergence\n");
   for (int step = 0; step < 100; ++step) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "coupling/simulation_parameters.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::coupling {
+
+/// Marker positions (markers x 3) of a vesicle as it starts.
+/// \throws std::logic_error of the vesicle library when the shape cannot be made
+vesicle::VectorField initial_markers(const VesicleParameters& vesicle, int latitudes);
+
+/// The same, with a mesh that has a geometry.
+/// \throws ParameterError naming what gave the shape of vesicle number i
+vesicle::VectorField checked_markers(const SimulationParameters& parameters, std::size_t i);
+
+/// \throws ParameterError naming the two when a marker of one vesicle lies inside another
+void check_apart(const SimulationParameters& parameters);
+
+}  // namespace vesiflow::coupling

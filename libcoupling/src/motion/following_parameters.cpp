@@ -1,0 +1,21 @@
+#include "motion/following_parameters.h"
+
+#include <algorithm>
+
+#include "motion/constants.h"
+
+namespace vesiflow::coupling {
+
+MembraneResponse FollowingParameters::response() const {
+  return {std::max(shape.degrees, grid.degrees), shape.radius, grid.spacing, grid.thickness};
+}
+
+int grid_degrees(double radius, double spacing) {
+  return static_cast<int>(constants::largest_resolved_kh * radius / spacing);
+}
+
+int resolved_degrees(int chosen, double radius, double spacing) {
+  return std::max(constants::fewest_degrees, std::min(chosen, grid_degrees(radius, spacing)));
+}
+
+}  // namespace vesiflow::coupling

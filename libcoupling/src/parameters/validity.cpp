@@ -1,0 +1,54 @@
+#include "coupling/validity.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "coupling/flow.h"
+#include "fluid/convection_stability.h"
+
+namespace vesiflow::coupling {
+
+double stable_bending_step(const SimulationParameters& parameters) {
+  double stiffest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < parameters.vesicles.size(); ++i)
+    stiffest = std::min(stiffest, own_capillary_number(parameters, i));
+  return validity::bending_step * stiffest;
+}
+
+double quiet_tension_number(const SimulationParameters& parameters) {
+  const double re = vesicle_reynolds_number(parameters);
+  if (parameters.time.markers != MarkerMotion::shape_following || re < validity::least_inertia)
+    return std::numeric_limits<double>::infinity();
+  return re <= 1.0 ? validity::quiet_g_to_one : validity::quiet_g_above_one;
+}
+
+double stable_convection_step(const SimulationParameters& parameters, const Flow& flow) {
+  double least = std::numeric_limits<double>::infinity();
+  if (parameters.fluid.inertia != fluid::Inertia::full || !flow.greatest_speed) return least;
+  const SimulationParameters::Domain& domain = parameters.domain;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double h = (domain.upper[axis] - domain.lower[axis]) / domain.cells[axis];
+    least = std::min(least, fluid::stable_convection_step(*flow.greatest_speed, h, parameters.fluid.reynolds_number,
+                                                          parameters.viscosity_range().greatest,
+                                                          parameters.fluid.viscous_treatment));
+  }
+  return least;
+}
+
+double largest_radius(const SimulationParameters& parameters) {
+  double radius = 0.0;
+  for (const VesicleParameters& vesicle : parameters.vesicles) radius = std::max(radius, vesicle.radius);
+  return radius;
+}
+
+double vesicle_reynolds_number(const SimulationParameters& parameters) {
+  const double radius = largest_radius(parameters);
+  return parameters.fluid.inertia == fluid::Inertia::none ? 0.0 : parameters.fluid.reynolds_number * radius * radius;
+}
+
+double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle) {
+  const double radius = parameters.vesicles[vesicle].radius;
+  return parameters.capillary_number(vesicle) * radius * radius * radius;
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,132 @@
+#include "step/immersed_vesicle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "coupling/initial_shape.h"
+#include "motion/motion_factory.h"
+#include "phase_timer.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+vesicle::MembraneParameters membrane_parameters(const SimulationParameters& all, std::size_t i) {
+  vesicle::MembraneParameters membrane;
+  membrane.capillary_number = all.capillary_number(i);
+  membrane.sigma0 = all.sigma0(i);
+  membrane.spontaneous_curvature = all.spontaneous_curvature(i);
+  membrane.tension_law = all.membrane.tension_law;
+  membrane.tension_form = all.membrane.tension_form;
+  if (all.time.markers == MarkerMotion::strain_relaxation) membrane.strain_relaxation = all.time.relaxation;
+  membrane.integral_tension = {all.membrane.integral_rate, all.membrane.integral_degrees};
+  membrane.area = all.membrane.area;
+  membrane.area_stiffness = all.membrane.area_stiffness;
+  membrane.laplacian.form = all.membrane.laplacian;
+  membrane.laplacian.upsampling = all.membrane.upsampling;
+  // Eq. (14) goes with the truncation that the paper gives it.
+  membrane.laplacian.truncated = all.membrane.laplacian == vesicle::LaplacianForm::paper;
+  membrane.volume = all.membrane.volume;
+  membrane.volume_stiffness = all.membrane.volume_stiffness;
+  membrane.filter = all.mesh.filter;
+  membrane.slip = all.mesh.slip;
+  membrane.normal_degrees = all.mesh.normal_degrees;
+  membrane.tangential_degrees = all.mesh.tangential_degrees;
+  return membrane;
+}
+
+vesicle::Membrane make_membrane(const SimulationParameters& parameters, std::size_t i,
+                                const vesicle::MembraneState* start) {
+  const int latitudes = parameters.latitudes(i);
+  vesicle::Membrane membrane(start != nullptr ? start->positions : initial_markers(parameters.vesicles[i], latitudes),
+                             latitudes, membrane_parameters(parameters, i));
+  if (start != nullptr) {
+    membrane.restore(*start);
+    membrane.keep_target_area();
+  }
+  return membrane;
+}
+
+}  // namespace
+
+int moving_degrees(const SimulationParameters& parameters, std::size_t i) {
+  const int degrees = parameters.mesh.normal_degrees;
+  return degrees > 0 ? degrees : vesicle::two_thirds_degrees(parameters.latitudes(i));
+}
+
+ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const Flow& flow, std::size_t number,
+                                 const fluid::Grid& grid, const vesicle::MembraneState* start)
+    : membrane(make_membrane(parameters, number, start)),
+      transfer(grid, parameters.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
+      motion(make_membrane_motion(parameters, flow, number, membrane)) {
+  if (parameters.coupling.thickness_correction)
+    thickness_.emplace(membrane, parameters.coupling.kernel, parameters.spacing(),
+                       0.5 * (1.0 + parameters.viscosity_ratio(number)));
+  const Eigen::Index markers = membrane.positions().rows();
+  velocities = {vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)};
+}
+
+void ImmersedVesicle::FlowAtMarkers::operator()(const Positions& positions, vesicle::VectorField& velocity) const {
+  (*this)(1.0, positions, velocity);
+}
+
+void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions& positions,
+                                                vesicle::VectorField& velocity) const {
+  {
+    const PhaseTimer timer(vesicle_.moving.interpolate);
+    vesicle_.transfer.update(positions);
+    vesicle_.transfer.interpolate(*vesicle_.velocity_, velocity);
+    if (fraction != 1.0) {
+      vesicle::VectorField& at_start = vesicle_.at_start_;
+      at_start.resize(velocity.rows(), 3);
+      vesicle_.transfer.interpolate(*vesicle_.previous_velocity_, at_start);
+      velocity = fraction * velocity + (1.0 - fraction) * at_start;
+    }
+  }
+  if (!vesicle_.thickness_) return;
+  const PhaseTimer timer(vesicle_.moving.thickness_correction);
+  vesicle_.thickness_->add_to(vesicle_.membrane, vesicle_.force(), velocity);
+}
+
+void ImmersedVesicle::update() {
+  if (is_current) return;
+  membrane.update_geometry();
+  membrane.compute_force();
+  is_current = true;
+}
+
+void ImmersedVesicle::predict(double dt) {
+  if (motion->predict(dt, membrane)) is_current = false;
+  update();
+}
+
+void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_velocity,
+                              const fluid::FaceVector& velocity) {
+  moving = {};
+  const PhaseTimer timer(moving.mesh);
+  previous_velocity_ = &previous_velocity;
+  velocity_ = &velocity;
+  motion->advance(dt, FlowAtMarkers(*this), membrane, velocities);
+  is_current = false;
+}
+
+void ImmersedVesicle::restore_history(double dt, std::span<const double> history) {
+  if (!std::ranges::all_of(history, [](double value) { return std::isfinite(value); }))
+    throw std::invalid_argument("the history of the markers has a value that is not finite");
+  if (history.empty())
+    motion->restart();
+  else
+    motion->restore_history(dt, history);
+}
+
+void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {
+  transfer.update(membrane.positions());
+  transfer.interpolate(velocity, velocities.fluid);
+  if (thickness_) {
+    update();
+    thickness_->add_to(membrane, force(), velocities.fluid);
+  }
+  motion->mesh_velocity(dt, membrane, velocities);
+}
+
+}  // namespace vesiflow::coupling

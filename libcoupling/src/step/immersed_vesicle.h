@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "coupling/marker_transfer.h"
+#include "coupling/phases.h"
+#include "coupling/simulation_parameters.h"
+#include "fluid/field.h"
+#include "motion/membrane_motion.h"
+#include "motion/thickness_correction.h"
+#include "step/velocity_noise.h"
+#include "vesicle/membrane.h"
+
+namespace vesiflow::coupling {
+
+/// One vesicle in the fluid: its membrane, the transfers between its markers and the grid, and how it moves.
+struct ImmersedVesicle {
+  /// As the parameters start it, or with a membrane to start from.
+  ImmersedVesicle(const SimulationParameters& parameters, const Flow& flow, std::size_t number, const fluid::Grid& grid,
+                  const vesicle::MembraneState* start = nullptr);
+
+  /// Geometry and forces at the present state; looking at a vesicle between two steps costs the next step nothing, unless
+  /// that predicts.
+  void update();
+
+  /// Geometry and forces at the state whose forces drive the step.
+  void predict(double dt);
+
+  /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts in `moving`.
+  void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity);
+
+  /// Velocities at markers that no step has moved yet.
+  void interpolate(double dt, const fluid::FaceVector& velocity);
+
+  /// Force per area on the fluid (markers x 3).
+  const vesicle::VectorField& force() const { return total_force ? *total_force : membrane.force(); }
+
+  /// That of the motion, left by a step of length dt; none if empty.
+  void restore_history(double dt, std::span<const double> history);
+
+  vesicle::Membrane membrane;
+  MarkerTransfer transfer;
+  MarkerVelocities velocities;
+  std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
+  std::unique_ptr<MembraneMotion> motion;
+  VelocityNoise noise;  ///< of velocities.membrane
+  /// Of the last advance(): all of it under mesh, and what of it are interpolation and thickness correction.
+  Phases moving;
+  std::int64_t redistributions = 0;
+  double area = 0.0, volume = 0.0;  ///< before an adaptive step
+  bool is_current = false;          ///< whether geometry and forces are those of the membrane's state
+
+ private:
+  std::optional<ThicknessCorrection> thickness_;
+  class FlowAtMarkers final : public VelocityAt {
+   public:
+    explicit FlowAtMarkers(ImmersedVesicle& vesicle) : vesicle_(vesicle) {}
+    void operator()(const Positions& positions, vesicle::VectorField& velocity) const override;
+    void operator()(double fraction, const Positions& positions, vesicle::VectorField& velocity) const override;
+
+   private:
+    ImmersedVesicle& vesicle_;
+  };
+
+  const fluid::FaceVector* previous_velocity_ = nullptr;
+  const fluid::FaceVector* velocity_ = nullptr;
+  vesicle::VectorField at_start_;  // of the step, where that is asked for
+};
+
+/// Degrees of the velocity that shapes the membrane of vesicle number i.
+int moving_degrees(const SimulationParameters& parameters, std::size_t i);
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,204 @@
+// A step of the coupled method, as section 3.3 of the paper has it, and what is looked at after it.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "coupling/errors.h"
+#include "coupling/simulation.h"
+#include "motion/implicit_step.h"
+#include "motion/start_control.h"
+#include "phase_timer.h"
+#include "step/blow_up_guard.h"
+#include "step/each_vesicle.h"
+#include "step/external_forces.h"
+#include "step/immersed_vesicle.h"
+#include "step/step_control.h"
+#include "viscosity/viscosity_contrast.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+/// Steps between two looks at the meshes, which change by a few per cent in that time. Where redistribution does not help it
+/// is tried again each time, at the price of about ten steps of a small parameters.
+constexpr long redistribution_interval = 16;
+
+}  // namespace
+
+void Simulation::step() {
+  or_stop(parameters_, flow_, [this] {
+    if (step_control_)
+      take_adaptive_step();
+    else if (start_control_ && start_control_->watches(steps()))
+      take_start_step();
+    else
+      take_step(parameters_.time.step);
+    check_growth();
+    redistribute_markers();
+  });
+}
+
+void Simulation::take_step(double dt) {
+  compute_forces(dt);  // Steps 1 and 2: coefficients, geometry, forces, spreading
+  update_viscosity();
+  if (implicit_step_) return solve_step(dt);
+  advance_fluid(dt);  // Step 3: Navier-Stokes
+  move_markers(dt);   // Steps 4 and 5: interpolation, mesh control, markers, target areas
+}
+
+// Steps 1 to 5 with forces at the new state, again and again until it answers to itself.
+void Simulation::solve_step(double dt) {
+  fluid_.remember();
+  implicit_step_->take(dt, [&](bool again) {
+    if (again) {
+      fluid_.retry();
+      spread_forces();
+    }
+    advance_fluid(dt);
+    move_markers(dt);
+  });
+}
+
+void Simulation::compute_forces(double dt) {
+  {
+    const PhaseTimer timer(phases_.membrane);
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->predict(dt); });
+    for (std::size_t i = 0; i < vesicles_.size(); ++i) check_limits(i);
+  }
+  spread_forces();
+}
+
+void Simulation::spread_forces() {
+  {
+    const PhaseTimer timer(phases_.spread);
+    for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
+    if (fluid_force_) put_fluid_force();
+  }
+  {
+    const PhaseTimer timer(phases_.membrane);
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->update(); });
+  }
+  if (external_forces_->any()) {
+    const PhaseTimer timer(phases_.external_forces);
+    external_forces_->compute(time());
+  }
+  const PhaseTimer timer(phases_.spread);
+  for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
+    ImmersedVesicle& v = *vesicles_[i];
+    v.transfer.update(v.membrane.positions());
+  });
+  for (auto& v : vesicles_) {  // on one grid, in this order: sums are the same for any number of threads
+    v->transfer.spread(v->force(), v->membrane.surface().area_weight(), fluid_.force());
+    if (const vesicle::VectorField* owed = v->motion->owed_force())
+      v->transfer.spread(*owed, v->membrane.surface().area_weight(), fluid_.force());
+  }
+  if (!fluid_.grid().has_walls()) hold_the_fluid();
+}
+
+// In the place of what is in the field of forces: markers add theirs.
+void Simulation::put_fluid_force() {
+  const auto put = [this](auto& component, int axis) {
+    for (int k = 0; k < component.extent(2); ++k)
+      for (int j = 0; j < component.extent(1); ++j)
+        for (int i = 0; i < component.extent(0); ++i)
+          component(i, j, k) = fluid_force_(component.position(i, j, k), time())[static_cast<std::size_t>(axis)];
+  };
+  put(fluid_.force().x, 0);
+  put(fluid_.force().y, 1);
+  put(fluid_.force().z, 2);
+}
+
+// Without walls nothing takes up a total force, and all would accelerate for ever: the mean pressure gradient balances it.
+void Simulation::hold_the_fluid() {
+  const fluid::Grid& grid = fluid_.grid();
+  const fluid::Vector3 total = external_forces_->total();
+  for (int axis = 0; axis < 3; ++axis)
+    fluid_.uniform_force()[axis] = -total[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
+}
+
+// Of the same markers as the forces.
+void Simulation::update_viscosity() {
+  if (!contrast_) return;
+  const PhaseTimer timer(phases_.indicator);
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) contrast_->add(i, vesicles_[i]->membrane.surface());
+  contrast_->update();
+}
+
+void Simulation::advance_fluid(double dt) {
+  try {
+    fluid_.step(dt);
+  } catch (const std::invalid_argument& error) {
+    if (fluid_.steps() > 0) throw;  // the state's fault
+    // The velocity solver is made in the first step, or refused.
+    throw ParameterError(fmt::format("fluid.velocity_solver: {}", error.what()));
+  } catch (const std::runtime_error& error) {
+    throw SimulationStopped(error.what(), blow_up_advice(parameters_, flow_));
+  }
+}
+
+void Simulation::move_markers(double dt) {
+  fluid::PhaseAccount all;
+  {
+    const PhaseTimer timer(all);
+    for_each_vesicle(vesicles_.size(),
+                     [&](std::size_t i) { vesicles_[i]->advance(dt, fluid_.previous_velocity(), fluid_.velocity()); });
+  }
+  // Vesicles may have moved side by side: the time that passed is shared out as they spent theirs.
+  double spent = 0.0;
+  for (const auto& v : vesicles_) spent += v->moving.mesh.seconds;
+  const double share = spent > 0.0 ? all.seconds / spent : 0.0;
+  for (const auto& v : vesicles_)
+    for (const auto phase : {&Phases::mesh, &Phases::interpolate, &Phases::thickness_correction}) {
+      const fluid::PhaseAccount& account = v->moving.*phase;
+      (phases_.*phase).entries += account.entries;
+      (phases_.*phase).seconds += share * account.seconds;
+    }
+}
+
+void Simulation::redistribute_markers() {
+  last_redistributions_.clear();
+  if (redistributions_.empty() || steps() % redistribution_interval != 0) return;
+  const vesicle::RedistributionLimits limits{parameters_.mesh.max_aspect_ratio, parameters_.mesh.max_spectrum_tail};
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    ImmersedVesicle& v = *vesicles_[i];
+    {
+      const PhaseTimer timer(phases_.membrane);
+      v.update();
+    }
+    const PhaseTimer timer(phases_.redistribution);
+    if (!limits.passed_by(vesicle::mesh_quality(v.membrane.surface()))) continue;
+    const vesicle::RedistributionReport report = v.membrane.redistribute(redistributions_.at(parameters_.latitudes(i)));
+    if (!report.moved) continue;
+    v.motion->restart();
+    v.noise.restart();
+    v.is_current = false;
+    v.interpolate(time_step(), fluid_.velocity());
+    ++v.redistributions;
+    last_redistributions_.push_back({i, report});
+  }
+}
+
+void Simulation::check_limits(std::size_t i) const {
+  const vesicle::Membrane& membrane = vesicles_[i]->membrane;
+  if (membrane.parameters().sigma0 == 0.0) return;  // nothing holds local areas, so nothing is promised of them
+  const double worst = (membrane.surface().area_weight() / membrane.target_areas() - 1.0).abs().maxCoeff();
+  if (!(worst <= parameters_.limits.local_area_error))
+    throw SimulationStopped(
+        fmt::format("the local area error of vesicle {} is {:.3g}, above limits.local_area_error = {:g}", i, worst,
+                    parameters_.limits.local_area_error),
+        blow_up_advice(parameters_, flow_));
+}
+
+void Simulation::check_growth() {
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+    const PhaseTimer timer(phases_.mesh);
+    ImmersedVesicle& v = *vesicles_[i];
+    v.noise.update(v.velocities.membrane);
+    if (const std::string found = guard_->look_at(i, v.noise, v.membrane.positions()); !found.empty())
+      throw SimulationStopped(found, blow_up_advice(parameters_, flow_));
+  }
+  if (const std::string found = guard_->look_at(fluid_.velocity(), steps()); !found.empty())
+    throw SimulationStopped(found, blow_up_advice(parameters_, flow_));
+}
+
+}  // namespace vesiflow::coupling

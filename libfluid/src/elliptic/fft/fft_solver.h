@@ -1,0 +1,29 @@
+// The "fft" backend of EllipticSolver (see FftOptions).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "elliptic/fft/fast_solver.h"
+#include "fluid/elliptic_solver.h"
+
+namespace vesiflow::fluid {
+
+class FftSolver final : public EllipticSolver {
+ public:
+  // Throws std::invalid_argument for a variable coefficient or the stress form.
+  FftSolver(const EllipticProblem& problem, const FftOptions& options);
+  std::string name() const override { return fluid::name(SolverKind::fft); }
+  static std::size_t estimate_memory(const EllipticProblem& problem, const FftOptions& options, int threads);
+
+ private:
+  void do_update(const EllipticProblem& problem) override;
+  SolveReport do_solve(ConstBlocks rhs, Blocks x) override;
+
+  FftOptions options_;
+  std::vector<std::unique_ptr<FastSolver>> blocks_;
+};
+
+}  // namespace vesiflow::fluid

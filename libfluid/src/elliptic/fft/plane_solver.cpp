@@ -1,0 +1,117 @@
+// x and y are diagonalised by fast transforms, plane by plane; what remains are difference equations in z for
+// every pair of modes. Eigenvalues are those of the difference operator, so that the solution is exact to
+// round-off.
+//
+// A solve passes three times over the data (planes forward, slabs, planes backward), each time through a
+// scratch array that fits a core's second-level cache. Every plane and slab is done by one thread in one way,
+// so the bits do not depend on the number of threads.
+#include "elliptic/fft/plane_solver.h"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "elliptic/fft/eigenbasis.h"
+#include "grid/planes.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+std::array<int, 2> plane(const std::array<int, 3>& extent) {
+  return {extent[0], extent[1]};
+}
+
+std::array<Basis, 2> plane_basis(const EllipticProblem& problem) {
+  return {eigenbasis(problem, 0), eigenbasis(problem, 1)};
+}
+
+// How many columns of n numbers are solved at a time: 128 KiB of them, in whole cache lines, but not less than half a KiB
+// of each row.
+int column_width(const std::array<int, 3>& extent) {
+  const int width = (16384 / extent[2] + 7) / 8 * 8;
+  return std::min(extent[0], std::max(width, 64));
+}
+
+}  // namespace
+
+PlaneSolver::Scratch::Scratch(const PlaneSolver& solver)
+    : transform(allocate_aligned(TransformPlan::scratch_size(plane(solver.extent_), solver.basis_))),
+      columns(solver.columns_),
+      shift(solver.width_) {}
+
+PlaneSolver::PlaneSolver(const EllipticProblem& problem)
+    : extent_(problem.extent()),
+      basis_(plane_basis(problem)),
+      forward_(plane(extent_), basis_, Direction::forward),
+      backward_(plane(extent_), basis_, Direction::backward),
+      width_(column_width(extent_)),
+      columns_(extent_[2], eigenbasis(problem, 2), width_),
+      eigenvalues_{eigenvalues(problem, 0), eigenvalues(problem, 1)},
+      z_coupling_(1.0 / (problem.grid.spacing(2) * problem.grid.spacing(2))),
+      normalisation_(1.0 / (LineTransform::pair_factor(basis_[0], extent_[0]) *
+                            LineTransform::pair_factor(basis_[1], extent_[1]))) {
+  PlaneSolver::update(problem);
+}
+
+std::size_t PlaneSolver::estimate_memory(const EllipticProblem& problem, int threads) {
+  const auto n = problem.extent();
+  const std::size_t numbers = TransformPlan::scratch_size(plane(n), plane_basis(problem)) +
+                              ColumnSolver::scratch_size(n[2], column_width(n)) + column_width(n);
+  return sizeof(double) * (threads * numbers + n[0] + n[1]);
+}
+
+void PlaneSolver::update(const EllipticProblem& problem) {
+  alpha_ = problem.alpha;
+  mu_ = problem.mu.value();
+  while (static_cast<int>(scratch_.size()) < omp_get_max_threads()) scratch_.emplace_back(*this);
+}
+
+double PlaneSolver::solve(ConstView rhs, View x) {
+  double removed_mean = 0.0;
+  const auto forward = [&](int k, Scratch& scratch) {
+    forward_.execute(rhs.row(0, k), rhs.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+  };
+  const auto solve = [&](int j, Scratch& scratch) {
+    const double mean = solve_slab(x, j, scratch);
+    if (j == 0) removed_mean = mean;
+  };
+  const auto backward = [&](int k, Scratch& scratch) {
+    backward_.execute(x.row(0, k), x.row_stride, x.row(0, k), x.row_stride, scratch.transform.get());
+  };
+  if (worth_threads(extent_)) {
+    const int threads = std::min(static_cast<int>(scratch_.size()), omp_get_max_threads());
+    keep_waits_short();
+#pragma omp parallel num_threads(threads)
+    {
+      Scratch& scratch = scratch_[omp_get_thread_num()];
+#pragma omp for schedule(static)
+      for (int k = 0; k < extent_[2]; ++k) forward(k, scratch);
+#pragma omp for schedule(static)
+      for (int j = 0; j < extent_[1]; ++j) solve(j, scratch);
+#pragma omp for schedule(static)
+      for (int k = 0; k < extent_[2]; ++k) backward(k, scratch);
+    }
+  } else {
+    Scratch& scratch = scratch_.front();
+    for (int k = 0; k < extent_[2]; ++k) forward(k, scratch);
+    for (int j = 0; j < extent_[1]; ++j) solve(j, scratch);
+    for (int k = 0; k < extent_[2]; ++k) backward(k, scratch);
+  }
+  return removed_mean;
+}
+
+// All modes of x at one mode j of y, as many at a time as fit the cache.
+double PlaneSolver::solve_slab(View x, int j, Scratch& scratch) const {
+  double removed_mean = 0.0;
+  for (int first = 0; first < extent_[0]; first += width_) {
+    const int columns = std::min(width_, extent_[0] - first);
+    for (int i = 0; i < columns; ++i) {
+      scratch.shift[i] = alpha_ + mu_ * (eigenvalues_[0][first + i] + eigenvalues_[1][j]);
+    }
+    removed_mean += columns_.solve(x.row(j, 0) + first, x.plane_stride, columns, scratch.shift.data(),
+                                   mu_ * z_coupling_, normalisation_, scratch.columns);
+  }
+  return removed_mean;
+}
+
+}  // namespace vesiflow::fluid

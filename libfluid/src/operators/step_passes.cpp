@@ -1,0 +1,140 @@
+#include "operators/step_passes.h"
+
+#include "fluid/viscosity.h"
+#include "grid/planes.h"
+#include "operators/convection_row.h"
+
+namespace vesiflow::fluid {
+namespace {
+
+// u += grad chi in the faces below the cells of row (j, k).
+void add_gradient_row(const Field<Cell>& chi, const Vector3& per_h, int j, int k, FaceVector& u) {
+  const int nx = chi.extent(0);
+  const auto& periodic = chi.grid().periodic;
+  const double* here = chi.row(j, k);
+  double* x = u.x.row(j, k);
+#pragma omp simd
+  for (int i = periodic[0] ? 0 : 1; i < nx; ++i) x[i] += (here[i] - here[i - 1]) * per_h[0];
+  if (j > 0 || periodic[1]) {
+    const double* below = chi.row(j - 1, k);
+    double* y = u.y.row(j, k);
+#pragma omp simd
+    for (int i = 0; i < nx; ++i) y[i] += (here[i] - below[i]) * per_h[1];
+  }
+  if (k > 0 || periodic[2]) {
+    const double* below = chi.row(j, k - 1);
+    double* z = u.z.row(j, k);
+#pragma omp simd
+    for (int i = 0; i < nx; ++i) z[i] += (here[i] - below[i]) * per_h[2];
+  }
+}
+
+Vector3 inverse_spacing(const Grid& grid) {
+  return {1.0 / grid.spacing(0), 1.0 / grid.spacing(1), 1.0 / grid.spacing(2)};
+}
+
+}  // namespace
+
+StepCoefficients step_coefficients(double dt, double previous_dt) {
+  if (previous_dt == 0.0) return {1.0, 1.0, 0.0, 1.0, 0.0};
+  const double r = dt / previous_dt;
+  return {(1.0 + 2.0 * r) / (1.0 + r), 1.0 + r, r * r / (1.0 + r), 1.0 + r, r};
+}
+
+void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
+                    const Field<Cell>& pressure, const FaceVector& force, const Vector3& uniform_force,
+                    FaceVector* convection, FaceVector& previous) {
+  const Grid& grid = u.grid();
+  const double c1 = reynolds_number * coefficients.a1 / dt;
+  const double c2 = reynolds_number * coefficients.a2 / dt;
+  const double n1 = reynolds_number * coefficients.b1;
+  const double n2 = reynolds_number * coefficients.b2;
+  const Vector3 per_h = inverse_spacing(grid);
+  const std::array<std::ptrdiff_t, 3> back{1, pressure.stride(1), pressure.stride(2)};
+  const auto velocity = u.points();
+  const auto forces = force.points();
+  const auto results = previous.points();
+
+  const auto row = [&](int component, const UnknownRange& range, int j, int k) {
+    const double* c = velocity[component].row(j, k);
+    const double* p = pressure.row(j, k);
+    const double* p_below = p - back[component];
+    const double* f = forces[component].row(j, k);
+    const double slope = per_h[component], everywhere = uniform_force[component];
+    double* out = results[component].row(j, k);
+#pragma omp simd
+    for (int i = range.begin[0]; i < range.end[0]; ++i) {
+      out[i] = c1 * c[i] - c2 * out[i] - (p[i] - p_below[i]) * slope + (f[i] + everywhere);
+    }
+    if (convection == nullptr) return;
+    double* n = convection->points()[component].row(j, k);
+#pragma omp simd
+    for (int i = range.begin[0]; i < range.end[0]; ++i) out[i] += n2 * n[i];
+    convection_row(grid, velocity, component, j, k, n);
+#pragma omp simd
+    for (int i = range.begin[0]; i < range.end[0]; ++i) out[i] -= n1 * n[i];
+  };
+
+  for_each_plane(grid.cells, [&](int k) {
+    for (int component = 0; component < 3; ++component) {
+      const UnknownRange range = unknown_range(grid, component);
+      for (int j = range.begin[1]; j < range.end[1]; ++j) {
+        if (range.contains_row(j, k)) row(component, range, j, k);
+      }
+    }
+  });
+}
+
+void remove_divergence(Field<Cell>& chi, FaceVector& u) {
+  extend_to_ghosts(chi);
+  const Vector3 per_h = inverse_spacing(chi.grid());
+  for_each_plane(chi.extent(), [&](int k) {
+    for (int j = 0; j < chi.extent(1); ++j) add_gradient_row(chi, per_h, j, k, u);
+  });
+}
+
+void correct_velocity_and_pressure(Field<Cell>& chi, double a, ConstView mu, double factor, FaceVector& u,
+                                   Field<Cell>& pressure) {
+  extend_to_ghosts(chi);
+  const Field<Cell>& c = chi;
+  const Vector3 per_h = inverse_spacing(chi.grid());
+  const Vector3 m{factor * per_h[0] * per_h[0], factor * per_h[1] * per_h[1], factor * per_h[2] * per_h[2]};
+  const double diagonal = 2.0 * (m[0] + m[1] + m[2]);
+  for_each_plane(c.extent(), [&](int k) {
+    for (int j = 0; j < c.extent(1); ++j) {
+      add_gradient_row(c, per_h, j, k, u);
+      const double* here = c.row(j, k);
+      const double* south = c.row(j - 1, k);
+      const double* north = c.row(j + 1, k);
+      const double* below = c.row(j, k - 1);
+      const double* above = c.row(j, k + 1);
+      const double* viscosity = mu.row(j, k);
+      double* p = pressure.row(j, k);
+#pragma omp simd
+      for (int i = 0; i < c.extent(0); ++i) {
+        p[i] += viscosity[i] * (m[0] * (here[i - 1] + here[i + 1]) + m[1] * (south[i] + north[i]) +
+                                m[2] * (below[i] + above[i]) - diagonal * here[i]) -
+                a * here[i];
+      }
+    }
+  });
+}
+
+void extrapolate(const FaceVector& u, const FaceVector& previous, double r, FaceVector& e) {
+  const auto extrapolate_field = [r](const auto& now, const auto& before, auto& result) {
+    const auto n = now.extent();
+    for_each_plane({n[0] + 2, n[1] + 2, n[2] + 2}, [&](int k) {
+      const std::ptrdiff_t plane = now.stride(2);
+      const double* x = now.data() + k * plane;
+      const double* y = before.data() + k * plane;
+      double* out = result.data() + k * plane;
+#pragma omp simd
+      for (std::ptrdiff_t i = 0; i < plane; ++i) out[i] = (1.0 + r) * x[i] - r * y[i];
+    });
+  };
+  extrapolate_field(u.x, previous.x, e.x);
+  extrapolate_field(u.y, previous.y, e.y);
+  extrapolate_field(u.z, previous.z, e.z);
+}
+
+}  // namespace vesiflow::fluid

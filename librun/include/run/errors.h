@@ -1,0 +1,23 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "coupling/errors.h"
+
+namespace vesiflow::run {
+
+/// The scene, the command line or the checkpoint asks for something that cannot be done. The message names
+/// file, line, key, value and what is allowed.
+class SceneError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file of results could not be written or read.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace vesiflow::run

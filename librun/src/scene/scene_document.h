@@ -1,0 +1,50 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <set>
+#include <string>
+
+#include "run/scene.h"
+#include "scene/scene_mistakes.h"
+
+namespace vesiflow::run {
+
+/// A parsed scene file with its overrides, where each key came from, and what was found wrong so far. The one header that knows
+/// TOML.
+class SceneDocument {
+ public:
+  /// Overrides that are no key, or no key of a scene, are mistakes. A single table [vesicles] is one vesicle.
+  /// \throws SceneError where the text is not TOML
+  SceneDocument(const std::string& text, std::string name, const Overrides& overrides);
+
+  const toml::table& root() const { return root_; }
+  /// The value of a dotted key, vesicles by number; nullptr if it is not given.
+  const toml::node* find(const std::string& key) const;
+
+  /// Adds the mistake that the value is not what is allowed.
+  void refuse(const std::string& key, const toml::node& node, const std::string& allowed);
+  /// Adds that there is no such key or table, and which was probably meant.
+  void refuse_unknown(const std::string& key, const toml::node& node);
+
+  const std::string& name() const { return name_; }
+  SceneMistakes& mistakes() { return mistakes_; }
+  /// Whether a table was probably meant to be this one.
+  bool misspells(const std::string& table) const { return meant_tables_.contains(table); }
+
+ private:
+  /// Where a key was given: "FILE:LINE", or "--set".
+  std::string where(const std::string& key, const toml::node& node) const;
+  unsigned line_of(const std::string& key, const toml::node& node) const;
+  void apply(const std::string& item);
+  std::string numbered(const std::string& key, const std::string& item);
+  std::size_t vesicle_count() const;
+
+  std::string name_;
+  toml::table root_;
+  std::set<std::string> overridden_;
+  std::set<std::string> meant_tables_;
+  SceneMistakes mistakes_;
+};
+
+}  // namespace vesiflow::run

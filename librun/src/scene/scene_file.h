@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "run/scene.h"
+
+namespace vesiflow::run {
+
+/// parse_scene with another way to fill in coupling::VesicleParameters::surface, between reading the keys and checking the scene.
+Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides,
+                  const std::function<void(Scene&)>& load_surfaces);
+
+}  // namespace vesiflow::run

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "vesicle/triangle_mesh.h"
+
+namespace vesiflow::vesicle {
+
+/// Throws std::domain_error that names the triangle and the number unless all triangles are between vertices of the mesh.
+void check_vertex_numbers(const TriangleMesh& mesh);
+
+}  // namespace vesiflow::vesicle

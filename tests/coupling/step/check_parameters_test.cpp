@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "coupling/errors.h"
+#include "coupling/flow.h"
+#include "coupling/parameter_table.h"
+#include "coupling/simulation.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+SimulationParameters one_vesicle() {
+  SimulationParameters parameters;
+  parameters.domain = {.lower = {-3, -3, -3}, .upper = {3, 3, 3}, .cells = {24, 24, 24}};
+  parameters.mesh.latitudes = 16;
+  parameters.vesicles.resize(1);
+  parameters.vesicles[0].reduced_volume = 0.9;
+  return parameters;
+}
+
+std::vector<std::string> mistakes_of(const SimulationParameters& parameters) {
+  try {
+    check(parameters, shear_flow(1.0, parameters.domain));
+  } catch (const ParameterError& error) {
+    return error.mistakes();
+  }
+  return {};
+}
+
+// What a program fills in is checked as what a scene file says: each of these was accepted once, or ran off an array.
+TEST(CheckParameters, RefusesWhatAProgramFillsInWrong) {
+  EXPECT_EQ(mistakes_of(one_vesicle()), std::vector<std::string>{});
+  const auto refusal = [](const std::function<void(SimulationParameters&)>& spoil) {
+    SimulationParameters parameters = one_vesicle();
+    spoil(parameters);
+    const std::vector<std::string> mistakes = mistakes_of(parameters);
+    EXPECT_EQ(mistakes.size(), 1u) << testing::PrintToString(mistakes);
+    return mistakes.empty() ? "accepted" : mistakes.front();
+  };
+  EXPECT_EQ(refusal([](auto& p) { p.time.step = -0.01; }), "time.step = -0.01: must be > 0");
+  EXPECT_EQ(refusal([](auto& p) { p.fluid.viscosity_ratio = 5000.0; }),
+            "fluid.viscosity_ratio = 5000: must be in [0.05, 100]");
+  EXPECT_EQ(refusal([](auto& p) { p.vesicles[0].viscosity_ratio = 5000.0; }),
+            "vesicles.0.viscosity_ratio = 5000: must be in [0.05, 100]");
+  EXPECT_EQ(refusal([](auto& p) { p.time.markers = static_cast<MarkerMotion>(17); }),
+            "time.markers = 17: this enumeration has the values 0 to 5");
+  EXPECT_EQ(refusal([](auto& p) { p.membrane.sigma0 = std::numeric_limits<double>::quiet_NaN(); }),
+            "membrane.sigma0 = nan: must be >= 0");
+  EXPECT_EQ(refusal([](auto& p) {
+              p.domain.cells = {24, 1, 24};
+            }),
+            "domain.cells = [24, 1, 24]: each must be in [8, 2048]");
+  EXPECT_NE(refusal([](auto& p) { p.vesicles[0].centre = {2.9, 0, 0}; }).find("off the walls"), std::string::npos);
+  EXPECT_NE(refusal([](auto& p) { p.vesicles.clear(); }).find("at least one"), std::string::npos);
+}
+
+TEST(CheckParameters, GathersAllMistakes) {
+  SimulationParameters parameters = one_vesicle();
+  parameters.time.step = -1.0;
+  parameters.mesh.latitudes = 7;
+  parameters.vesicles[0].radius = 0.0;
+  const std::vector<std::string> mistakes = mistakes_of(parameters);
+  ASSERT_EQ(mistakes.size(), 3u);
+  const std::string all = ParameterError(mistakes).what();
+  EXPECT_TRUE(all.starts_with("3 mistakes:\n  1. mesh.latitudes = 7")) << all;
+}
+
+TEST(CheckParameters, SimulationsAreCheckedToo) {
+  SimulationParameters parameters = one_vesicle();
+  parameters.time.step = -0.01;
+  EXPECT_THROW(Simulation(parameters, shear_flow(1.0, parameters.domain)), ParameterError);
+}
+
+TEST(CheckParameters, FlowsThatDoNotFitTheDomainAreRefused) {
+  SimulationParameters parameters = one_vesicle();
+  parameters.domain.periodic = {false, false, true};
+  EXPECT_THROW(check(parameters, shear_flow(1.0, parameters.domain)), ParameterError);
+  EXPECT_NO_THROW(check(parameters, flow_at_rest()));
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling
