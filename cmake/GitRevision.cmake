@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # vesiflow_git_revision(TARGET): a header build_info.h with the version and the git revision, made afresh at
 # every build so that results name the code that produced them. "unknown" outside a git checkout.
 function(vesiflow_git_revision target)

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The package behind find_package(Vesiflow COMPONENTS ...): one export set per library, so that a component can
 # be installed without the others and asks for its own dependencies only. (The libraries' own files: vesiflow_library().)
 include(CMakePackageConfigHelpers)

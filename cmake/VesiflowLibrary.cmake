@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # vesiflow_library(NAME): the target vesiflow_NAME, for users Vesiflow::NAME, from lib<NAME>/include and lib<NAME>/src, with the
 # project's language level, warnings and code generation. Callers add sources and link dependencies.
 include(GNUInstallDirs)
@@ -49,6 +51,14 @@ function(vesiflow_library name)
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     POSITION_INDEPENDENT_CODE ON)
+  if(BUILD_SHARED_LIBS)
+    # What is not marked as in <NAME/export.h> stays inside, except from tests, which link to it.
+    if(NOT VESIFLOW_BUILD_TESTS AND NOT VESIFLOW_BUILD_BENCH AND NOT VESIFLOW_BUILD_FUZZ)
+      set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
+  else()
+    target_compile_definitions(${target} PUBLIC VESIFLOW_STATIC)
+  endif()
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Every choice a builder has, in one place.
 set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling;run" CACHE STRING
   "Libraries to build: any of vesicle, fluid, coupling (which needs these two) and run (which needs all three)")

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Checks who includes whom, by the table scripts/rooms.txt: see "The libraries" in CONTRIBUTING.md.
 # usage: scripts/check_dependencies.sh
 set -euo pipefail

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs what building and running the programs and plotting their results need; silent when nothing is missing.
 # usage: scripts/install-deps.sh [--test | --dev]
 #   --test   also what the tests and benchmarks need, and SUNDIALS, whose Debian package brings PETSc, MPI and Fortran along

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The checks that take too long for every change, one after the other; says at the end which of them failed.
 # usage: scripts/nightly.sh [CHECK...]      (all checks unless named; a few hours on two cores)
 #   x86-64-v2, x86-64-v3, x86-64-v4, native   everything, benchmarks too, compiled for these processors with warnings as errors; the

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Kills runs at random moments, restarts them, and compares what comes out with runs that nobody disturbed.
 
 usage: scripts/python.sh validation/kills.py [--count N] [--apps FOLDER] [--seed N] [--store]

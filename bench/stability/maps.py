@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The maps: which runs, where theory has its limits, and what the documents recommend."""
 
 import dataclasses

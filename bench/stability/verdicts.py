@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What became of a run, measured from its diagnostics (docs/stability.md gives the reasons for the numbers)."""
 
 import math

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs a build to a scratch prefix and builds programs outside the tree against it, without -march=native.
 # usage: tests/install_consumer/check.sh BUILD_DIR
 set -euo pipefail

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What finds a blow-up before it is not finite, and what a run does about it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

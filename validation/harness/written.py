@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Whether what a run has written is whole, and whether two runs have written the same (docs/results.md)."""
 
 import json

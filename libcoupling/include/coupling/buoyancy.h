@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/export.h"
 #include "vesicle/surface.h"
 
 namespace vesiflow::coupling {
@@ -10,6 +13,7 @@ namespace vesiflow::coupling {
 /// pressure inside by a constant); its total is weight times the volume, by the divergence theorem. The difference
 /// in inertia is left out, as it is in the fluid, whose density is one.
 /// \throws std::invalid_argument unless `force` has a row for each marker
-void add_buoyancy(const vesicle::Surface& surface, const vesicle::Vector3& weight, vesicle::VectorField& force);
+VESIFLOW_COUPLING_EXPORT void add_buoyancy(const vesicle::Surface& surface, const vesicle::Vector3& weight,
+                                           vesicle::VectorField& force);
 
 }  // namespace vesiflow::coupling

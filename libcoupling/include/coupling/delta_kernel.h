@@ -1,8 +1,12 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
 #include <span>
 #include <string_view>
+
+#include "coupling/export.h"
 
 namespace vesiflow::coupling {
 
@@ -34,38 +38,39 @@ constexpr std::string_view name(DeltaKernel kernel) {
 }
 
 /// The kernel of that name. \throws std::invalid_argument for any other name
-DeltaKernel delta_kernel(std::string_view name);
+VESIFLOW_COUPLING_EXPORT DeltaKernel delta_kernel(std::string_view name);
 
 /// Interpolation from a staggered field whose discrete divergence (that of the cells) is zero. `plain`: the divergence of
 /// the interpolated field is an error of the kernel, and so is the change of an enclosed volume that moves with it.
 /// `divergence_preserving`: the interpolated divergence is the discrete one, smoothed by the tangential phi in all
 /// directions, hence zero at every point: markers as dense as one likes keep their volume.
 enum class Interpolation { plain, divergence_preserving };
-Interpolation interpolation(DeltaKernel kernel);
+VESIFLOW_COUPLING_EXPORT Interpolation interpolation(DeltaKernel kernel);
 
 /// Against the faces of a component: along it, or across.
 enum class Direction { normal, tangential };
 
 /// Number of grid points under phi along one direction: the support is |r| < width / 2 grid spacings.
-int support_width(DeltaKernel kernel, Direction direction = Direction::normal);
+VESIFLOW_COUPLING_EXPORT int support_width(DeltaKernel kernel, Direction direction = Direction::normal);
 
 /// Distance from a wall, in grid spacings, from which on the supports of a marker lie within the box.
-double wall_clearance(DeltaKernel kernel);
+VESIFLOW_COUPLING_EXPORT double wall_clearance(DeltaKernel kernel);
 
 /// phi(r): even, not negative, zero outside the support, sum 1 and first moment 0 over the grid for every position.
 /// \param r distance in grid spacings
-double delta(DeltaKernel kernel, double r, Direction direction = Direction::normal);
+VESIFLOW_COUPLING_EXPORT double delta(DeltaKernel kernel, double r, Direction direction = Direction::normal);
 
 /// phi at the `width` points around a marker, which lie at the signed distances (marker minus point) width/2 - 1 + t - j,
 /// j = 0 .. width - 1. All of them share square roots.
 /// \param t in [0, 1): the fraction of the marker's position above a point (even width) or half way between two (odd)
 /// \throws std::invalid_argument if `weights` has not `width` elements
-void delta_weights(DeltaKernel kernel, double t, std::span<double> weights, Direction direction = Direction::normal);
+VESIFLOW_COUPLING_EXPORT void delta_weights(DeltaKernel kernel, double t, std::span<double> weights,
+                                            Direction direction = Direction::normal);
 
 /// c = E|r - r'|/2 for r, r' independently distributed as the tangential phi, in grid spacings. A force per area F spread
 /// from a plane, tangential to it, drives a flow with a kink; interpolated back to the plane it is low by c h F/mu: an error
 /// of first order in h, as of a membrane of finite thickness. The grid's own sum of w_i w_j |i - j| / 2 is 0.03 to 0.07
 /// smaller and depends on the plane's position; docs/coupling.md has both.
-double thickening(DeltaKernel kernel);
+VESIFLOW_COUPLING_EXPORT double thickening(DeltaKernel kernel);
 
 }  // namespace vesiflow::coupling

@@ -1,14 +1,18 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "coupling/export.h"
+
 namespace vesiflow::coupling {
 
 /// Parameters ask for something that cannot be done. Each mistake names the parameter (`time.step`, `vesicles.0.radius`), its value and what is
 /// allowed; what() says all of them.
-class ParameterError : public std::runtime_error {
+class VESIFLOW_COUPLING_EXPORT ParameterError : public std::runtime_error {
  public:
   explicit ParameterError(const std::string& mistake) : ParameterError(std::vector<std::string>{mistake}) {}
   explicit ParameterError(std::vector<std::string> mistakes)
@@ -24,7 +28,7 @@ class ParameterError : public std::runtime_error {
 
 /// The state stopped being usable: not finite, a limit passed, a marker at a wall. `cause` says what went wrong,
 /// `advice` what to change.
-class SimulationStopped : public std::runtime_error {
+class VESIFLOW_COUPLING_EXPORT SimulationStopped : public std::runtime_error {
  public:
   SimulationStopped(const std::string& cause, std::string advice_text)
       : std::runtime_error(cause), advice_(std::move(advice_text)) {}

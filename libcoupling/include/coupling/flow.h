@@ -1,9 +1,12 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
 #include <optional>
 #include <string>
 
+#include "coupling/export.h"
 #include "coupling/simulation_parameters.h"
 #include "fluid/boundary.h"
 
@@ -33,18 +36,19 @@ struct Flow {
 // mirror plane) for plane Poiseuille and duct flow, and as it is for the others.
 
 /// u = 0
-Flow flow_at_rest();
+VESIFLOW_COUPLING_EXPORT Flow flow_at_rest();
 /// u = (rate z, 0, 0)
-Flow shear_flow(double rate, const SimulationParameters::Domain& domain);
+VESIFLOW_COUPLING_EXPORT Flow shear_flow(double rate, const SimulationParameters::Domain& domain);
 /// u = (rate cos(omega t) z, 0, 0); inside exact where Re omega H^2 << 1, the walls being H apart
-Flow oscillating_shear_flow(double rate, double angular_frequency, const SimulationParameters::Domain& domain);
+VESIFLOW_COUPLING_EXPORT Flow oscillating_shear_flow(double rate, double angular_frequency,
+                                                     const SimulationParameters::Domain& domain);
 /// planar u = rate (x, 0, -z), uniaxial u = rate (x, -y/2, -z/2)
-Flow extension_flow(double rate, Extension kind, const SimulationParameters::Domain& domain);
+VESIFLOW_COUPLING_EXPORT Flow extension_flow(double rate, Extension kind, const SimulationParameters::Domain& domain);
 /// u = (u_max (1 - (z/H)^2), 0, 0) between walls z = -H, H
-Flow plane_poiseuille_flow(double peak_velocity, const SimulationParameters::Domain& domain);
+VESIFLOW_COUPLING_EXPORT Flow plane_poiseuille_flow(double peak_velocity, const SimulationParameters::Domain& domain);
 /// u = u_max times fluid::DuctSeries(y, z) (Eq. (35) of the paper)
-Flow duct_flow(double peak_velocity, const SimulationParameters::Domain& domain);
+VESIFLOW_COUPLING_EXPORT Flow duct_flow(double peak_velocity, const SimulationParameters::Domain& domain);
 /// A flow of one's own. Nothing is known of it, so nothing of it is checked.
-Flow custom_flow(const fluid::BoundaryVelocity& velocity, fluid::WallMotion motion);
+VESIFLOW_COUPLING_EXPORT Flow custom_flow(const fluid::BoundaryVelocity& velocity, fluid::WallMotion motion);
 
 }  // namespace vesiflow::coupling

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -5,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/export.h"
 #include "coupling/marker_transfer.h"
 #include "fluid/elliptic_solver.h"
 #include "fluid/field.h"
@@ -28,7 +31,7 @@ namespace vesiflow::coupling {
 /// then half of its volume is in the box.
 ///
 /// c passes a little over and under the values that it goes between, near the membrane: see docs/viscosity_contrast.md for how much.
-class Indicator {
+class VESIFLOW_COUPLING_EXPORT Indicator {
  public:
   /// \param membranes their number
   Indicator(const fluid::Grid& grid, std::size_t membranes, DeltaKernel kernel = DeltaKernel::smoothed_four_point);

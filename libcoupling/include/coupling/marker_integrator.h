@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -7,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "coupling/export.h"
 #include "coupling/marker_motion.h"
 
 namespace vesiflow::coupling {
@@ -24,7 +27,7 @@ struct MarkerStatistics {
 
 /// Advances markers by dX/dt = U(t, X), X a flat array. Knows neither vesicle nor grid. Histories belong to the
 /// integrator: it starts itself, follows a changing time step, and its history can be saved and restored.
-class MarkerIntegrator {
+class VESIFLOW_COUPLING_EXPORT MarkerIntegrator {
  public:
   virtual ~MarkerIntegrator() = default;
 
@@ -60,10 +63,10 @@ struct MarkerTolerances {
 /// strain_relaxation: markers as euler, the rest is in the membrane.
 /// \throws std::invalid_argument for any other motion, for tolerances out of range, and for arkode in a build without
 /// SUNDIALS
-std::unique_ptr<MarkerIntegrator> make_marker_integrator(MarkerMotion motion, std::size_t size,
-                                                         const MarkerTolerances& tolerances = {});
+VESIFLOW_COUPLING_EXPORT std::unique_ptr<MarkerIntegrator> make_marker_integrator(
+    MarkerMotion motion, std::size_t size, const MarkerTolerances& tolerances = {});
 
 /// Whether this build has arkode and implicit.
-bool have_sundials();
+VESIFLOW_COUPLING_EXPORT bool have_sundials();
 
 }  // namespace vesiflow::coupling

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -5,6 +7,7 @@
 #include <vector>
 
 #include "coupling/delta_kernel.h"
+#include "coupling/export.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
 #include "vesicle/types.h"
@@ -12,7 +15,8 @@
 namespace vesiflow::coupling {
 
 /// Per axis whether some of the markers (markers x 3) lie beyond the mirror plane of the grid there: false where it has none.
-std::array<bool, 3> mirrors_crossed(const fluid::Grid& grid, const Eigen::Ref<const vesicle::VectorField>& positions);
+VESIFLOW_COUPLING_EXPORT std::array<bool, 3> mirrors_crossed(const fluid::Grid& grid,
+                                                             const Eigen::Ref<const vesicle::VectorField>& positions);
 
 /// The two transfers between the markers of one membrane and the staggered grid, with a regularized delta function
 /// (coupling/delta_kernel.h):
@@ -36,7 +40,7 @@ std::array<bool, 3> mirrors_crossed(const fluid::Grid& grid, const Eigen::Ref<co
 ///     as far as it reaches into the box.
 ///
 /// Several membranes may add to one density, each by its own MarkerTransfer.
-class MarkerTransfer {
+class VESIFLOW_COUPLING_EXPORT MarkerTransfer {
  public:
   /// \param across per axis with a mirror plane: whether the markers lie across it. Without meaning for the other axes
   /// \throws std::invalid_argument for an axis that is not of walls and has fewer cells than the kernel has points

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -10,12 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/export.h"
 #include "coupling/simulation_parameters.h"
 
 namespace vesiflow::coupling {
 
 /// Allowed numbers, ends included or not.
-struct Range {
+struct VESIFLOW_COUPLING_EXPORT Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool low_open = false;
@@ -32,7 +35,7 @@ struct Range {
 
 /// What can be done with each parameter: check it, read it, write it, list it. The functions visit() below are the one place where
 /// names, types and ranges of parameters are written down.
-class ParameterVisitor {
+class VESIFLOW_COUPLING_EXPORT ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
   virtual void number(std::string_view name, double& value, const Range& range) = 0;
@@ -53,7 +56,7 @@ class ParameterVisitor {
 };
 
 /// Finds what is not in its range.
-class RangeCheck final : public ParameterVisitor {
+class VESIFLOW_COUPLING_EXPORT RangeCheck final : public ParameterVisitor {
  public:
   /// `prefix` goes before all names: "vesicles.0.", or nothing.
   explicit RangeCheck(std::string prefix = "") : prefix_(std::move(prefix)) {}
@@ -95,16 +98,16 @@ void visit_choice(ParameterVisitor& visitor, std::string_view name, Enum& value,
 }
 
 // The parameters of each group, under their full names: "domain.lower" ...
-void visit(SimulationParameters::Domain& domain, ParameterVisitor& visitor);
-void visit(SimulationParameters::Fluid& fluid, ParameterVisitor& visitor);
-void visit(SimulationParameters::Coupling& coupling, ParameterVisitor& visitor);
-void visit(SimulationParameters::Membrane& membrane, ParameterVisitor& visitor);
-void visit(SimulationParameters::Mesh& mesh, ParameterVisitor& visitor);
-void visit(SimulationParameters::Gravity& gravity, ParameterVisitor& visitor);
-void visit(SimulationParameters::Repulsion& repulsion, ParameterVisitor& visitor);
-void visit(SimulationParameters::Time& time, ParameterVisitor& visitor);
-void visit(SimulationParameters::Limits& limits, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Domain& domain, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Fluid& fluid, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Coupling& coupling, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Membrane& membrane, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Mesh& mesh, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Gravity& gravity, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Repulsion& repulsion, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Time& time, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(SimulationParameters::Limits& limits, ParameterVisitor& visitor);
 /// Of one vesicle, without the leading `vesicles.N.`; VesicleParameters::surface is not among them.
-void visit(VesicleParameters& vesicle, ParameterVisitor& visitor);
+VESIFLOW_COUPLING_EXPORT void visit(VesicleParameters& vesicle, ParameterVisitor& visitor);
 
 }  // namespace vesiflow::coupling

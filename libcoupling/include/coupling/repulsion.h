@@ -1,8 +1,11 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <memory>
 #include <span>
 
+#include "coupling/export.h"
 #include "fluid/grid.h"
 #include "vesicle/types.h"
 
@@ -31,7 +34,7 @@ struct RepelledMembrane {
 /// on each other along the line between them: total force and torque of all membranes vanish but for walls.
 /// Sums stand for integrals well where markers are not farther apart than the membranes: an error of about exp(-2 pi d/s) at
 /// marker spacing s.
-class Repulsion {
+class VESIFLOW_COUPLING_EXPORT Repulsion {
  public:
   /// \throws std::invalid_argument unless range > 0 and strength >= 0 are finite
   Repulsion(const fluid::Grid& grid, const RepulsionParameters& parameters, Eigen::Index largest_markers);

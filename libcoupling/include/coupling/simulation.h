@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <functional>
@@ -8,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/export.h"
 #include "coupling/flow.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/phases.h"
@@ -63,7 +66,7 @@ class ViscosityContrast;
 class BlowUpGuard;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
-class Simulation {
+class VESIFLOW_COUPLING_EXPORT Simulation {
  public:
   /// Vesicles as the parameters start them, in a flow.
   /// \throws ParameterError for what cannot be computed

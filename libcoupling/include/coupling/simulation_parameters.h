@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "coupling/delta_kernel.h"
+#include "coupling/export.h"
 #include "coupling/marker_motion.h"
 #include "fluid/elliptic_solver.h"
 #include "fluid/navier_stokes.h"
@@ -49,7 +52,7 @@ struct VesicleParameters {
 
 /// All that decides how a simulation computes, beside its flow (coupling/flow.h). Dimensionless groups are the paper's (section 3.1):
 /// Re = rho r^2/(mu_o t_c), Ca = mu_o r^3/(c_b t_c). Scene files have keys of the same names (docs/scene.md).
-struct SimulationParameters {
+struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   struct Domain {
     std::array<double, 3> lower{-6.0, -6.0, -6.0};
     std::array<double, 3> upper{6.0, 6.0, 6.0};
@@ -159,15 +162,15 @@ struct SimulationParameters {
 };
 
 /// The domain as a grid.
-fluid::Grid grid_of(const SimulationParameters& parameters);
+VESIFLOW_COUPLING_EXPORT fluid::Grid grid_of(const SimulationParameters& parameters);
 /// The fluid's own parameters, with viscosity 1: a contrast needs the membranes.
-fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters);
+VESIFLOW_COUPLING_EXPORT fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters);
 
 struct Flow;
 
 /// Checks all of it: the range of each parameter (coupling/parameter_table.h), then what no single one can be blamed for, such as vesicles
 /// inside the box, a usable time step, and that they are apart. Simulation does so itself.
 /// \throws ParameterError of all mistakes
-void check(const SimulationParameters& parameters, const Flow& flow);
+VESIFLOW_COUPLING_EXPORT void check(const SimulationParameters& parameters, const Flow& flow);
 
 }  // namespace vesiflow::coupling

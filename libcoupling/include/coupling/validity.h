@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "coupling/export.h"
 #include "coupling/simulation_parameters.h"
 
 namespace vesiflow::coupling {
@@ -59,23 +62,23 @@ constexpr long settling_steps = 10;  ///< of a start, in which velocities jump
 }  // namespace validity
 
 /// The longest step that follows bending: validity::bending_step times the smallest Ca r^3 of the vesicles.
-double stable_bending_step(const SimulationParameters& parameters);
+VESIFLOW_COUPLING_EXPORT double stable_bending_step(const SimulationParameters& parameters);
 
 /// The largest g = dt sigma0/(4 h) at which shape following is quiet where inertia counts (docs/time_integration.md, shape_following); infinite
 /// elsewhere.
-double quiet_tension_number(const SimulationParameters& parameters);
+VESIFLOW_COUPLING_EXPORT double quiet_tension_number(const SimulationParameters& parameters);
 
 /// Largest time step at which the explicit convection of the flow is stable (fluid::stable_convection_step); infinite without
 /// inertia, and where nothing is known of the flow.
-double stable_convection_step(const SimulationParameters& parameters, const Flow& flow);
+VESIFLOW_COUPLING_EXPORT double stable_convection_step(const SimulationParameters& parameters, const Flow& flow);
 
 /// Greatest effective radius of the vesicles: what lengths are large or small against.
-double largest_radius(const SimulationParameters& parameters);
+VESIFLOW_COUPLING_EXPORT double largest_radius(const SimulationParameters& parameters);
 
 /// Reynolds number of the largest vesicle in the unit of time: rho r^2/(mu t), whatever the unit of length. 0 without inertia.
-double vesicle_reynolds_number(const SimulationParameters& parameters);
+VESIFLOW_COUPLING_EXPORT double vesicle_reynolds_number(const SimulationParameters& parameters);
 
 /// Capillary number of a vesicle in the unit of time and its own radius: mu r^3/(c_b t), whatever the unit of length.
-double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle);
+VESIFLOW_COUPLING_EXPORT double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle);
 
 }  // namespace vesiflow::coupling

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Velocity on the walls of the box: sampled from a function, checked, and imposed on staggered fields, together with
 // the repetition across periodic axes and the reflection at mirrors.
 #pragma once
@@ -6,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "fluid/export.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
 
@@ -28,7 +32,7 @@ enum class WallMotion {
 // the same line, 2 * wall face - inner face, and so do edges and corners, so that a linear flow is continued
 // exactly. Across a periodic axis ghosts are the points of the other end. The component normal to a mirror is zero on
 // the faces there and minus the inner face in the ghost; tangential components have the point inside as their ghost.
-class WallVelocity {
+class VESIFLOW_FLUID_EXPORT WallVelocity {
  public:
   // Samples the function at time zero; throws what evaluate() throws, and std::invalid_argument for an empty
   // function (which is right only if there are no walls).

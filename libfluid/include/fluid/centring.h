@@ -1,8 +1,12 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The four places of the staggered grid, as values (for solvers) and as types (for fields).
 #pragma once
 
 #include <array>
 
+#include "fluid/export.h"
 #include "fluid/grid.h"
 
 namespace vesiflow::fluid {
@@ -27,7 +31,7 @@ struct FaceZ {
 inline constexpr std::array<Centring, 3> face_centrings{Centring::face_x, Centring::face_y, Centring::face_z};
 
 // "cell", "face_x", ... for messages.
-const char* name(Centring centring);
+VESIFLOW_FLUID_EXPORT const char* name(Centring centring);
 
 // Whether points of this centring lie on the walls (or the mirror) normal to the axis (true for face_x and axis 0, and
 // so on).
@@ -37,10 +41,10 @@ constexpr bool is_face_normal(Centring centring, int axis) {
 
 // Number of points along each axis: one per cell, and one more along the normal of a face (on a periodic axis the last
 // of these is the first again).
-std::array<int, 3> point_extent(const Grid& grid, Centring centring);
+VESIFLOW_FLUID_EXPORT std::array<int, 3> point_extent(const Grid& grid, Centring centring);
 
 // Number of unknowns along each axis: the points that do not lie on a wall or a mirror, each counted once.
-std::array<int, 3> unknown_extent(const Grid& grid, Centring centring);
+VESIFLOW_FLUID_EXPORT std::array<int, 3> unknown_extent(const Grid& grid, Centring centring);
 
 // The index of the first unknown along an axis: 1 along the normal of a face unless it is periodic, else 0.
 constexpr int first_unknown(const Grid& grid, Centring centring, int axis) {

@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "fluid/export.h"
 #include "fluid/navier_stokes.h"
 
 namespace vesiflow::fluid {
@@ -11,7 +14,8 @@ namespace vesiflow::fluid {
 // is explicit (v = u') or extrapolated (v = 2 u' - u); otherwise, and with an implicit treatment, m = 1. The limit of C for m = 1 is
 // within 12 % of 1.15 Pe^(-1/3) + 0.33/Pe^2 for Pe = Re U h of 1 to 500; an extrapolated viscous term at m = 20 has 0.24 at Pe = 5, instead of 0.68.
 // Infinite for Re = 0 or U = 0, and where it exceeds C = 100.
-double stable_convection_step(double speed, double spacing, double reynolds_number, double largest_viscosity = 1.0,
-                              ViscousTreatment treatment = ViscousTreatment::implicit);
+VESIFLOW_FLUID_EXPORT double stable_convection_step(double speed, double spacing, double reynolds_number,
+                                                    double largest_viscosity = 1.0,
+                                                    ViscousTreatment treatment = ViscousTreatment::implicit);
 
 }  // namespace vesiflow::fluid

@@ -1,5 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The exact solution of steady flow in a rectangular duct.
 #pragma once
+
+#include "fluid/export.h"
 
 namespace vesiflow::fluid {
 
@@ -12,7 +17,7 @@ namespace vesiflow::fluid {
 // w is the same with y, d and z, e exchanged, the form that converges faster at (y, z) is taken. Terms are added until
 // they are below 1e-17 of the first, at most to i = 20001: that leaves less than 1e-14 farther than 1e-3 max(d, e) from an
 // edge, and less than 1e-9 anywhere. The paper stops the plain series at i = 199, with an error of up to 1e-6.
-class DuctSeries {
+class VESIFLOW_FLUID_EXPORT DuctSeries {
  public:
   // Throws std::invalid_argument unless both half-widths are finite and > 0.
   DuctSeries(double d, double e);

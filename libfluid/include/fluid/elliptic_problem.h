@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The elliptic problem that solvers solve: what is to be solved, apart from how.
 #pragma once
 
@@ -5,6 +8,7 @@
 #include <cstddef>
 
 #include "fluid/centring.h"
+#include "fluid/export.h"
 #include "fluid/grid.h"
 #include "fluid/view.h"
 #include "fluid/viscosity.h"
@@ -19,8 +23,8 @@ enum class BoundaryCondition { dirichlet, neumann };
 enum class EllipticForm { laplacian, stress };
 
 // "dirichlet", "laplacian", ... for messages.
-const char* name(BoundaryCondition boundary);
-const char* name(EllipticForm form);
+VESIFLOW_FLUID_EXPORT const char* name(BoundaryCondition boundary);
+VESIFLOW_FLUID_EXPORT const char* name(EllipticForm form);
 
 // alpha x - div(mu grad x) = b for a scalar x on a centring or for a vector x on the faces, or
 // alpha x - div(mu (grad x + grad x^T)) = b for a vector on the faces; on the unknowns (the points not on walls or
@@ -39,7 +43,7 @@ const char* name(EllipticForm form);
 // both, and the system is never changed otherwise.
 //
 // The operator is symmetric in the sum over unknowns, and positive but for the nullspace.
-struct EllipticProblem {
+struct VESIFLOW_FLUID_EXPORT EllipticProblem {
   // A scalar. Throws std::invalid_argument, naming the value, unless alpha >= 0 and a constant mu > 0 are finite, a
   // field mu is on the same grid, and the condition suits the centring. The values of a field are checked by the solver.
   EllipticProblem(const Grid& grid, Centring centring, BoundaryCondition boundary, double alpha, Viscosity mu);
@@ -76,10 +80,10 @@ struct EllipticProblem {
 
 // y = A x. x and y must not overlap. Allocates an array per block, for the ghosts. Throws std::invalid_argument, as
 // relative_residual() does, unless the arrays have the shapes of the problem.
-void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y);
+VESIFLOW_FLUID_EXPORT void apply(const EllipticProblem& problem, ConstBlocks x, Blocks y);
 
 // max |b - A x| / max |b|, with b made compatible first if the problem has a nullspace; infinite if x is not
 // finite. Allocates.
-double relative_residual(const EllipticProblem& problem, ConstBlocks rhs, ConstBlocks x);
+VESIFLOW_FLUID_EXPORT double relative_residual(const EllipticProblem& problem, ConstBlocks rhs, ConstBlocks x);
 
 }  // namespace vesiflow::fluid

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Solvers of EllipticProblem behind one interface, and the factory that makes them.
 #pragma once
 
@@ -11,6 +14,7 @@
 #include <variant>
 
 #include "fluid/elliptic_problem.h"
+#include "fluid/export.h"
 #include "fluid/view.h"
 
 namespace vesiflow::fluid {
@@ -26,7 +30,7 @@ struct SolveReport {
 // One problem at a time: update() takes it, solve() solves it for as many right-hand sides as wanted.
 // A solver may be used by one thread at a time; inside it uses omp_get_max_threads() threads, but no more
 // than that was at its last update().
-class EllipticSolver {
+class VESIFLOW_FLUID_EXPORT EllipticSolver {
  public:
   virtual ~EllipticSolver() = default;
   EllipticSolver(const EllipticSolver&) = delete;
@@ -136,10 +140,10 @@ constexpr const char* name(SolverKind kind) {
   return solver_names[static_cast<std::size_t>(kind)].data();  // of literals
 }
 // A solver of a kind with the options it has by default.
-SolverOptions default_options(SolverKind kind);
+VESIFLOW_FLUID_EXPORT SolverOptions default_options(SolverKind kind);
 
 // "fft", "cholmod", "auto"; of "pcg" with its preconditioner: "pcg+fft", "pcg+cholmod".
-std::string name(const SolverOptions& options);
+VESIFLOW_FLUID_EXPORT std::string name(const SolverOptions& options);
 
 // What "auto" takes for a problem, and why in words: "fft" where it is exact; else "cholmod" (in builds that have it) if a
 // factorisation is estimated to be faster than one solve by "pcg" with "fft", which happens for small grids and very
@@ -151,14 +155,15 @@ struct ChosenSolver {
   SolverOptions options;
   std::string reason;
 };
-ChosenSolver choose_solver(const EllipticProblem& problem, const AutoOptions& options);
+VESIFLOW_FLUID_EXPORT ChosenSolver choose_solver(const EllipticProblem& problem, const AutoOptions& options);
 
 // A solver updated to the problem. Throws std::invalid_argument, naming the alternatives, for what the build
 // or the backend cannot do.
-std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem, const SolverOptions& options);
+VESIFLOW_FLUID_EXPORT std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem,
+                                                                           const SolverOptions& options);
 
 // Bytes a solver will take for a problem with the present omp_get_max_threads(): the work arrays of "fft"
 // (FFTW's own tables are small), an empirical rule for "cholmod", good to a factor of 1.5. Nothing is allocated.
-std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options);
+VESIFLOW_FLUID_EXPORT std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options);
 
 }  // namespace vesiflow::fluid

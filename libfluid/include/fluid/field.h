@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scalar fields on the staggered grid, with their centring in the type, and the velocity-like triple of face
 // fields.
 #pragma once

@@ -1,9 +1,14 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The uniform staggered (MAC) grid of a box, each axis of which ends at two walls, begins at a plane of symmetry or is
 // periodic.
 #pragma once
 
 #include <array>
 #include <cstddef>
+
+#include "fluid/export.h"
 
 namespace vesiflow::fluid {
 
@@ -27,7 +32,7 @@ struct AxisEnds {
 // is odd (and so zero on it), the other components, the pressure and the viscosity are even. The upper end is a wall.
 // What is computed on the half is, to round-off, what would be on the whole. Up to three axes may have a mirror: two
 // leave a quarter of the box to compute.
-struct Grid {
+struct VESIFLOW_FLUID_EXPORT Grid {
   static constexpr int min_cells = 4;
   static constexpr int max_cells = 65536;  // per axis: indices of the whole array then fit 64 bits
 

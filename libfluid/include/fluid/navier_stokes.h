@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Incompressible Navier-Stokes equations in a box: semi-implicit BDF2 with rotational incremental pressure
 // correction.
 #pragma once
@@ -10,6 +13,7 @@
 
 #include "fluid/boundary.h"
 #include "fluid/elliptic_solver.h"
+#include "fluid/export.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
 #include "fluid/phase_account.h"
@@ -89,7 +93,7 @@ struct FluidReport {
 // at the new time (StokesSolver, from the extrapolated velocity and the last pressure).
 //
 // Second order in space and, for u, in time. div u = 0 to round-off. Same bits for every number of threads.
-class NavierStokes {
+class VESIFLOW_FLUID_EXPORT NavierStokes {
  public:
   // At rest inside, moving as told on the walls (if there are any), at time zero. Throws std::invalid_argument for parameters
   // out of range, wall data with a net flux (WallVelocity), a pressure solver that is not available, and a grid

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The Stokes equations, velocity and pressure together.
 #pragma once
 
@@ -6,6 +9,7 @@
 #include <memory>
 
 #include "fluid/boundary.h"
+#include "fluid/export.h"
 #include "fluid/field.h"
 #include "fluid/grid.h"
 #include "fluid/viscosity.h"
@@ -45,7 +49,7 @@ struct StokesReport {
 // the default tolerance in a cube with walls, 1 without walls. A field takes Bramble-Pasciak conjugate gradients with a
 // multigrid cycle: about 35 to 50 in a cube for ratios of viscosities from 5 to 100 over two cells. Neither number grows
 // with the grid; in a box eight times as long as wide they are about 30 and 70.
-class StokesSolver {
+class VESIFLOW_FLUID_EXPORT StokesSolver {
  public:
   // For viscosity 1. Throws std::invalid_argument, naming the value, unless 0 < tolerance < 1 and max_iterations >= 1.
   explicit StokesSolver(const Grid& grid, const StokesOptions& options = {});

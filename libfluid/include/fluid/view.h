@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Non-owning three-dimensional arrays with contiguous rows: what solvers and loops over any centring work on.
 #pragma once
 

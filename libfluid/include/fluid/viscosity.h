@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Viscosity (or any other positive coefficient): a number, or a field at cell centres.
 #pragma once
 
@@ -5,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "fluid/export.h"
 #include "fluid/field.h"
 
 namespace vesiflow::fluid {
@@ -13,7 +17,7 @@ namespace vesiflow::fluid {
 //
 // Where an operator needs it between cell centres it takes the arithmetic mean of the 2 (faces) or 4 (edges) cells
 // around. At walls these include ghosts, which extend_to_ghosts() sets.
-class Viscosity {
+class VESIFLOW_FLUID_EXPORT Viscosity {
  public:
   Viscosity(double value) : value_(value) {}
   // Throws std::invalid_argument for a null pointer.
@@ -40,10 +44,10 @@ class Viscosity {
 
 // Sets all ghosts of a coefficient at cell centres: next to walls and mirrors the value of the cell inside, across a
 // periodic axis the cell of the other end.
-void extend_to_ghosts(Field<Cell>& field);
+VESIFLOW_FLUID_EXPORT void extend_to_ghosts(Field<Cell>& field);
 
 // Samples a function of position at the cell centres, and extends it to the ghosts.
-std::shared_ptr<Field<Cell>> sample_viscosity(const Grid& grid,
-                                              const std::function<double(const Vector3& position)>& function);
+VESIFLOW_FLUID_EXPORT std::shared_ptr<Field<Cell>> sample_viscosity(
+    const Grid& grid, const std::function<double(const Vector3& position)>& function);
 
 }  // namespace vesiflow::fluid

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <filesystem>
@@ -6,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "run/export.h"
 #include "run/scene_simulation.h"
 
 namespace vesiflow::run {
@@ -54,18 +57,18 @@ enum class RunStatus { completed, interrupted, terminated, hung_up, user_signal_
 /// \throws SceneError for a checkpoint of another scene, or a run to start from that does not fit; FileError when a file cannot
 /// be read or written, or another run has the directory; coupling::SimulationStopped, with step, time, cause and last checkpoint in its
 /// message, when the run cannot go on
-RunStatus run(SceneSimulation& simulation, const RunOptions& options);
+VESIFLOW_RUN_EXPORT RunStatus run(SceneSimulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.
 namespace exit_code {
 inline constexpr int success = 0, internal_error = 1, bad_input = 2, stopped = 3, file_error = 4, out_of_memory = 5,
                      out_of_time = 6, hung_up = 129, interrupted = 130, user_signal_1 = 138, user_signal_2 = 140,
                      terminated = 143;  // 128 + signal
-int of(RunStatus status);
+VESIFLOW_RUN_EXPORT int of(RunStatus status);
 }  // namespace exit_code
 
 /// Calls `program` and turns what it throws into a message on standard error and an exit code. Before, for the whole process:
 /// standard streams that are closed become /dev/null, and SIGPIPE and SIGXFSZ are ignored (writing fails instead).
-int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv);
+VESIFLOW_RUN_EXPORT int exit_code_of(int (*program)(int argc, char** argv), int argc, char** argv);
 
 }  // namespace vesiflow::run

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <filesystem>
@@ -8,6 +10,7 @@
 #include "coupling/flow.h"
 #include "coupling/simulation_parameters.h"
 #include "run/errors.h"
+#include "run/export.h"
 
 namespace vesiflow::run {
 
@@ -26,7 +29,7 @@ struct SurfaceFile {
 
 /// Everything a scene file can say, with its defaults. docs/scene.md documents each key; names there and here are the same, but that the
 /// keys of `limits` and `membrane.g` which concern no simulation are in `ending` and `g`.
-struct Scene : coupling::SimulationParameters {
+struct VESIFLOW_RUN_EXPORT Scene : coupling::SimulationParameters {
   std::string title;
   struct Method {
     Preset preset = Preset::standard;
@@ -62,26 +65,27 @@ struct Scene : coupling::SimulationParameters {
 
 /// The flow that the scene names, in its domain.
 /// \throws SceneError for flow.type = "custom", which only a program can give
-coupling::Flow flow_of(const Scene& scene);
+VESIFLOW_RUN_EXPORT coupling::Flow flow_of(const Scene& scene);
 
 /// `name=value` pairs as given with `--set`: `time.end=2`, `vesicles.0.radius=0.8`; the only vesicle needs no number.
 using Overrides = std::vector<std::string>;
 
 /// Reads and checks a scene; a folder stands for the scene.toml in it.
 /// \throws SceneError of all mistakes, naming file, line, key, value and what is allowed
-Scene load_scene(const std::filesystem::path& file, const Overrides& overrides = {});
+VESIFLOW_RUN_EXPORT Scene load_scene(const std::filesystem::path& file, const Overrides& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
-Scene parse_scene(const std::string& text, const std::string& name, const Overrides& overrides = {});
+VESIFLOW_RUN_EXPORT Scene parse_scene(const std::string& text, const std::string& name,
+                                      const Overrides& overrides = {});
 
 /// Checks every key, and what no single one can be blamed for: what coupling::check() does, and what only scenes have. `name` stands for the
 /// file in messages. load_scene and SceneSimulation do so themselves.
 /// \throws SceneError of all mistakes
-void check_scene(const Scene& scene, const std::string& name);
+VESIFLOW_RUN_EXPORT void check_scene(const Scene& scene, const std::string& name);
 
 /// The scene as a TOML file with every key; parses back to the same scene.
 /// \throws SceneError for an enumeration with a value that has no name
-std::string to_toml(const Scene& scene);
+VESIFLOW_RUN_EXPORT std::string to_toml(const Scene& scene);
 
 /// One key of a scene file, for documentation and its test.
 struct SceneKey {
@@ -89,6 +93,6 @@ struct SceneKey {
   std::string default_value;  ///< as written in TOML; empty where there is none
   std::string allowed;
 };
-std::vector<SceneKey> scene_keys();
+VESIFLOW_RUN_EXPORT std::vector<SceneKey> scene_keys();
 
 }  // namespace vesiflow::run

@@ -1,12 +1,15 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "coupling/simulation.h"
+#include "run/export.h"
 #include "run/scene.h"
 
 namespace vesiflow::run {
 
 /// The simulation of a scene.
-class SceneSimulation : public coupling::Simulation {
+class VESIFLOW_RUN_EXPORT SceneSimulation : public coupling::Simulation {
  public:
   /// As the scene starts, with the flow it names.
   /// \throws SceneError for a scene that cannot be computed

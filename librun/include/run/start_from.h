@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <filesystem>
 
+#include "run/export.h"
 #include "run/scene_simulation.h"
 
 namespace vesiflow::run {
@@ -19,6 +22,6 @@ namespace vesiflow::run {
 ///
 /// \throws SceneError when there is no usable checkpoint, the numbers of vesicles, a radius or planes of symmetry differ, or a
 /// membrane does not fit into the box; the simulation is then of no more use
-void start_from(const std::filesystem::path& run, SceneSimulation& simulation);
+VESIFLOW_RUN_EXPORT void start_from(const std::filesystem::path& run, SceneSimulation& simulation);
 
 }  // namespace vesiflow::run

@@ -1,14 +1,17 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <complex>
 #include <vector>
 
+#include "vesicle/export.h"
 #include "vesicle/types.h"
 
 namespace vesiflow::vesicle {
 
 /// The paper's 2/3 rule: the number of degrees n < 2N/3.
-int two_thirds_degrees(int latitudes);
+VESIFLOW_VESICLE_EXPORT int two_thirds_degrees(int latitudes);
 
 /// Spherical-harmonic coefficients f_n^m of `fields` real fields, degrees 0 <= n < degrees and orders 0 <= m
 /// <= n; negative orders follow from f_n^{-m} = (-1)^m conj(f_n^m). See SphericalHarmonics for the expansion.
@@ -16,7 +19,7 @@ int two_thirds_degrees(int latitudes);
 /// Storage is what the Legendre transform reads: for each order, the degrees n = m, m + 2, ... and then
 /// n = m + 1, m + 3, ..., each with its fields contiguous. Degrees ascend inside a block, so that a transform
 /// of fewer degrees reads a prefix of it.
-class Coefficients {
+class VESIFLOW_VESICLE_EXPORT Coefficients {
  public:
   using Complex = std::complex<double>;
 

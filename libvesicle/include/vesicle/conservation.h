@@ -1,8 +1,11 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <optional>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
@@ -20,7 +23,7 @@ struct Conserved {
 /// degrees of H are noise in a simulation, and moving along them makes more of it, without bound if the area is to grow. For a
 /// shape of few degrees the smallest correction in the L2 norm over the membrane. Nothing allocates after the first correction of
 /// each kind.
-class ConservationProjection {
+class VESIFLOW_VESICLE_EXPORT ConservationProjection {
  public:
   /// With smoothing_degrees > 0, displacements are corrected along n and 2 H n, each component of them cut to that many degrees,
   /// instead of n and F[2 H] n: the products with n have high degrees again, and what a correction adds at these would feed on

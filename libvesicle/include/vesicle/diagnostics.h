@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
 
+#include "vesicle/export.h"
 #include "vesicle/membrane.h"
 #include "vesicle/spectrum.h"
 #include "vesicle/surface.h"
@@ -23,27 +26,28 @@ struct VolumeMoments {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Identity();
 };
 
-VolumeMoments volume_moments(const Surface& surface);
+VESIFLOW_VESICLE_EXPORT VolumeMoments volume_moments(const Surface& surface);
 
 /// Taylor's deformation (L - S)/(L + S) of the ellipsoid with the same moments, L and S its longest and shortest semi-axis: 0 for
 /// a sphere, towards 1 for needles and discs.
 /// @throws std::invalid_argument unless L is finite and > 0 and S in [0, L].
-double deformation(const VolumeMoments& moments);
+VESIFLOW_VESICLE_EXPORT double deformation(const VolumeMoments& moments);
 
 /// A/R^2 - 4 pi with R = (3 V/4 pi)^{1/3}: the area beyond that of the sphere of the same volume, 0 for it.
 /// @throws std::invalid_argument unless both are finite and > 0.
-double excess_area(double area, double volume);
+VESIFLOW_VESICLE_EXPORT double excess_area(double area, double volume);
 
 /// Angle of the longest axis in the xz-plane against the x axis, radians in (-pi/2, pi/2]. NaN if the longest
 /// axis is not defined (the two longest agree to 1e-8, e.g. spheres and oblates) or points along y.
-double inclination_angle(const VolumeMoments& moments);
+VESIFLOW_VESICLE_EXPORT double inclination_angle(const VolumeMoments& moments);
 
 /// Eq. (34): area average of |r x V| / |r|^2, with r from the centroid and V relative to the mean velocity of
 /// the membrane, both projected to the xz-plane; markers with |r| < 1e-3 sqrt(A/4 pi) are left out of both sums. NaN if
 /// none is left. velocity: interpolated marker velocity, shape (markers, 3).
 /// @throws std::invalid_argument for a wrong size or a centroid that is not finite, std::domain_error if the velocity is not
 /// finite.
-double tank_treading_frequency(const Surface& surface, const Vector3& centroid, const VectorField& velocity);
+VESIFLOW_VESICLE_EXPORT double tank_treading_frequency(const Surface& surface, const Vector3& centroid,
+                                                       const VectorField& velocity);
 
 /// What is recorded of a membrane at one time. Errors are relative to the initial values. A membrane that has turned inside out
 /// has no reduced volume, excess area and deformation: NaN.
@@ -78,6 +82,7 @@ struct Diagnostics {
 /// membrane_velocity: the velocity whose surface divergence is reported (the paper's Table 3 uses the filtered
 /// one). Both of shape (markers, 3).
 /// @throws std::invalid_argument for a wrong size, std::domain_error if a velocity is not finite.
-Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity, const VectorField& membrane_velocity);
+VESIFLOW_VESICLE_EXPORT Diagnostics measure(const Membrane& membrane, const VectorField& marker_velocity,
+                                            const VectorField& membrane_velocity);
 
 }  // namespace vesiflow::vesicle

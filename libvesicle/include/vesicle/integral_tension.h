@@ -1,6 +1,9 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
@@ -18,7 +21,7 @@ struct IntegralTensionParameters {
 /// of an inextensible membrane; the elastic tension alone holds it only by a steady strain sigma/sigma0. The strain decays
 /// with the rate r, so that 1/r should be short beside the times of the flow, and r dt small beside one.
 /// The degrees that are left out hold noise of the grid, which must not be summed up.
-class IntegralTension {
+class VESIFLOW_VESICLE_EXPORT IntegralTension {
  public:
   /// @throws std::invalid_argument unless rate is finite and >= 0 and degrees >= 1; those beyond the latitudes mean all.
   IntegralTension(const SphereGrid& grid, const IntegralTensionParameters& parameters);

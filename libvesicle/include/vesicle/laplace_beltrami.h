@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <memory>
 
+#include "vesicle/export.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
 #include "vesicle/upsampling.h"
@@ -38,7 +41,7 @@ struct LaplacianOptions {
 ///
 /// Max error of Lap H, N = 32, 64, 128, cartesian, twice, not truncated: 7.5e-3, 5.0e-9, 1.7e-8 on the 1:2:4 ellipsoid (paper: 4.2,
 /// 0.23, 0.22), see validation/table1.md.
-class LaplaceBeltrami {
+class VESIFLOW_VESICLE_EXPORT LaplaceBeltrami {
  public:
   explicit LaplaceBeltrami(const SphereGrid& grid, const LaplacianOptions& options = {});
   ~LaplaceBeltrami();

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -6,6 +8,7 @@
 #include "vesicle/area.h"
 #include "vesicle/bending.h"
 #include "vesicle/conservation.h"
+#include "vesicle/export.h"
 #include "vesicle/integral_tension.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/redistribution.h"
@@ -69,7 +72,7 @@ struct MembraneEntries {
 ///   update_geometry(); compute_force();   (spread, solve the fluid, interpolate U)
 ///   filter_velocity(U, dt, U~); advance(X + dt U~, U, U~, dt);
 /// Nothing allocates once each of these has been called. One thread at a time per membrane.
-class Membrane {
+class VESIFLOW_VESICLE_EXPORT Membrane {
  public:
   /// Takes the initial positions, shape (2 latitudes^2, 3), as the unstretched state, and updates the
   /// geometry.

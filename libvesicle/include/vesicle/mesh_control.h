@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <optional>
 
+#include "vesicle/export.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
@@ -20,7 +23,7 @@ enum class FilterOrder {
 
 /// The velocity filter that keeps the marker mesh smooth. The normal velocity is only dealiased; the
 /// tangential one, which does not change the shape, keeps few degrees.
-class MeshFilter {
+class VESIFLOW_VESICLE_EXPORT MeshFilter {
  public:
   /// Numbers of degrees kept; those beyond the mesh's `latitudes` degrees mean all of them.
   /// @throws std::invalid_argument unless both are >= 1.
@@ -53,7 +56,7 @@ enum class SlipReference {
 
 /// Target areas of the markers, which follow the slip of the mesh relative to the membrane (Step 5 of
 /// Section 3.3).
-class TargetAreaUpdate {
+class VESIFLOW_VESICLE_EXPORT TargetAreaUpdate {
  public:
   TargetAreaUpdate(const SphereGrid& grid, SlipReference reference);
 

@@ -1,8 +1,11 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <string>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 #include "vesicle/triangle_mesh.h"
 #include "vesicle/types.h"
 
@@ -33,7 +36,7 @@ struct MeshFit {
 
 /// Degrees that a fit to so many vertices takes unless told: as many as the vertices determine, vertices >= 2 degrees^2, at most
 /// `latitudes` - 1, and at most 32, with which red cells and stomatocytes are met far better than meshes give them.
-int default_fit_degrees(Eigen::Index vertices, int latitudes);
+VESIFLOW_VESICLE_EXPORT int default_fit_degrees(Eigen::Index vertices, int latitudes);
 
 /// Fits spherical harmonics of degree n < degrees to a closed triangle mesh of genus zero, star-shaped or not:
 ///   minimise sum_i w_i |X(y_i) - x_i|^2 + lambda sum_{n,m} a_n |X_n^m|^2
@@ -50,10 +53,10 @@ int default_fit_degrees(Eigen::Index vertices, int latitudes);
 /// volume vanishes, that cannot be mapped to the sphere, or whose fit folds or is another shape: the area, volume or
 /// reduced volume of the surface differs from that of the smooth interpolant by more than 1 %, what the triangles leave
 /// open (the difference between interpolant and triangles) and the roughness, or rms_between is above 1 % and rms_sagitta.
-MeshFit fit_mesh(const TriangleMesh& mesh, int degrees);
+VESIFLOW_VESICLE_EXPORT MeshFit fit_mesh(const TriangleMesh& mesh, int degrees);
 
 /// One sentence for people: how far the surface is from the vertices and between them, its area, volume and reduced volume
 /// against those of the triangles.
-std::string description(const MeshFit& fit);
+VESIFLOW_VESICLE_EXPORT std::string description(const MeshFit& fit);
 
 }  // namespace vesiflow::vesicle

@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/surface.h"
 
 namespace vesiflow::vesicle {
@@ -17,6 +20,6 @@ struct MeshQuality {
   double spectrum_tail = 0;
 };
 
-MeshQuality mesh_quality(const Surface& surface);
+VESIFLOW_VESICLE_EXPORT MeshQuality mesh_quality(const Surface& surface);
 
 }  // namespace vesiflow::vesicle

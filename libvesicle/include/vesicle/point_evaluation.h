@@ -1,8 +1,11 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <vector>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 #include "vesicle/types.h"
 
 namespace vesiflow::vesicle {
@@ -12,7 +15,7 @@ namespace vesiflow::vesicle {
 ///   Y_n^m(d) = q_n^m(z) (x + i y)^m,
 /// q a polynomial from the three-term recurrence in n, which is stable on [-1, 1]: no angles, no division by sin(theta).
 /// O(points degrees^2): 3 fields of 64 degrees at 8192 points take 11 ms (AVX2, one thread).
-class PointEvaluation {
+class VESIFLOW_VESICLE_EXPORT PointEvaluation {
  public:
   /// For expansions of up to `degrees` degrees.
   /// @throws std::invalid_argument unless 1 <= degrees <= 512 (q overflows near 800).

@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <optional>
 
+#include "vesicle/export.h"
 #include "vesicle/mesh_energy.h"
 #include "vesicle/mesh_quality.h"
 #include "vesicle/point_evaluation.h"
@@ -44,7 +47,7 @@ struct RedistributionReport {
 ///
 /// With kept_degrees < N the new positions keep that many degrees. A simulation whose marker velocity has n < 2N/3 needs it: what
 /// lies above moves with nothing, and noise that redistribution shifts there would stay for good and pile up.
-class MeshRedistribution {
+class VESIFLOW_VESICLE_EXPORT MeshRedistribution {
  public:
   /// kept_degrees: of the new positions, 0 for all of them.
   /// @throws std::invalid_argument unless latitudes >= 4 and 0 <= kept_degrees <= latitudes.

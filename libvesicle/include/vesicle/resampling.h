@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/membrane.h"
 #include "vesicle/spherical_harmonics.h"
 
@@ -7,7 +10,7 @@ namespace vesiflow::vesicle {
 
 /// Takes fields from one grid to another through their coefficients of degree below the smaller number of latitudes: exact
 /// upwards, the projection downwards. Nothing allocates after the first call. One thread at a time.
-class Resampling {
+class VESIFLOW_VESICLE_EXPORT Resampling {
  public:
   Resampling(const SphereGrid& from, const SphereGrid& to, int max_fields = 3);
 
@@ -27,6 +30,7 @@ class Resampling {
 /// material; target areas and initial areas keep their totals and the initial volume is kept, so that errors of area and volume
 /// are against the same values as before. As it is if both grids are the same.
 /// @throws std::invalid_argument if an array of the state has not the size of the grid it is from, std::domain_error if the surface has no geometry on the new mesh (Surface::update).
-MembraneState resample(const MembraneState& state, const SphereGrid& from, const SphereGrid& to);
+VESIFLOW_VESICLE_EXPORT MembraneState resample(const MembraneState& state, const SphereGrid& from,
+                                               const SphereGrid& to);
 
 }  // namespace vesiflow::vesicle

@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
 
@@ -19,6 +22,6 @@ struct RigidMotion {
 /// It vanishes in tank-treading and follows the body in tumbling.
 /// normal_velocity: U.n, shape (markers).
 /// @throws std::invalid_argument for a wrong size, std::domain_error if it is not finite.
-RigidMotion rigid_motion_of_shape(const Surface& surface, const ScalarField& normal_velocity);
+VESIFLOW_VESICLE_EXPORT RigidMotion rigid_motion_of_shape(const Surface& surface, const ScalarField& normal_velocity);
 
 }  // namespace vesiflow::vesicle

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <span>
@@ -5,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 #include "vesicle/sphere_grid.h"
 #include "vesicle/types.h"
 
@@ -23,23 +26,27 @@ struct Placement {
 ///
 /// The ellipsoids are X = (a sin(theta) cos(phi), b sin(theta) sin(phi), c cos(theta)).
 
-VectorField sphere(const SphereGrid& grid, const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField sphere(const SphereGrid& grid, const Placement& placement = {});
 
 /// Semi-axes in the given proportions, all in [1e-100, 1e100], e.g. (3, 3, 1) or (1, 2, 4); scaled to the effective radius.
-VectorField ellipsoid(const SphereGrid& grid, const Vector3& proportions, const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField ellipsoid(const SphereGrid& grid, const Vector3& proportions,
+                                              const Placement& placement = {});
 
 /// Spheroid with polar over equatorial semi-axis `aspect_ratio` > 0: prolate above 1, oblate below.
-VectorField spheroid(const SphereGrid& grid, double aspect_ratio, const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField spheroid(const SphereGrid& grid, double aspect_ratio,
+                                             const Placement& placement = {});
 
 /// Spheroids of reduced volume 6 sqrt(pi) V / A^{3/2} in (0, 1].
-VectorField prolate(const SphereGrid& grid, double reduced_volume, const Placement& placement = {});
-VectorField oblate(const SphereGrid& grid, double reduced_volume, const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField prolate(const SphereGrid& grid, double reduced_volume,
+                                            const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField oblate(const SphereGrid& grid, double reduced_volume,
+                                           const Placement& placement = {});
 
 /// Red-cell discocyte of E. Evans and Y. C. Fung, Microvasc. Res. 4 (1972) 335, doi:10.1016/0026-2862(72)90069-6: at
 /// the distance rho = sin(theta) from the axis, in units of the radius of the disc,
 ///   z = cos(theta)/2 (c0 + c1 rho^2 + c2 rho^4),  c0 = 0.207161, c1 = 2.002558, c2 = -1.122762.
 /// Its reduced volume is 0.6444.
-VectorField biconcave_disc(const SphereGrid& grid, const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField biconcave_disc(const SphereGrid& grid, const Placement& placement = {});
 
 /// A term amplitude * Re Y_n^m for m >= 0, amplitude * Im Y_n^{|m|} for m < 0, with the fully normalised Y_n^m of
 /// SphericalHarmonics: the integral of |Y_n^m|^2 over all directions is 1, so that of (Re Y_n^m)^2 is 1/2 for m > 0.
@@ -53,25 +60,26 @@ struct Harmonic {
 /// common factor changes nothing. The centre of the directions, not the centroid, lies at the centre.
 /// @throws std::invalid_argument also when r is not > 0 (looked at in about eight points per wavelength
 /// of the highest degree, and on the grid).
-VectorField perturbed_sphere(const SphereGrid& grid, std::span<const Harmonic> terms, const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField perturbed_sphere(const SphereGrid& grid, std::span<const Harmonic> terms,
+                                                     const Placement& placement = {});
 
 /// The surface with the given coefficients of three fields, of any number of degrees, at the nodes of the grid. It is
 /// scaled to the effective radius, turned about the centroid of its volume, and the centroid is put at the centre.
 /// @throws std::invalid_argument also unless the coefficients are finite with three fields, std::domain_error unless
 /// the enclosed volume is > 0: it is negative where X_theta x X_phi points inward.
-VectorField shape_from_coefficients(const SphereGrid& grid, const Coefficients& coefficients,
-                                    const Placement& placement = {});
+VESIFLOW_VESICLE_EXPORT VectorField shape_from_coefficients(const SphereGrid& grid, const Coefficients& coefficients,
+                                                            const Placement& placement = {});
 
 /// Closed form for the spheroid of that aspect ratio.
-double spheroid_reduced_volume(double aspect_ratio);
+VESIFLOW_VESICLE_EXPORT double spheroid_reduced_volume(double aspect_ratio);
 
 /// Polar over equatorial semi-axis of the prolate (>= 1) or oblate (<= 1) spheroid of a reduced volume in (0,
 /// 1].
-double prolate_aspect_ratio(double reduced_volume);
-double oblate_aspect_ratio(double reduced_volume);
+VESIFLOW_VESICLE_EXPORT double prolate_aspect_ratio(double reduced_volume);
+VESIFLOW_VESICLE_EXPORT double oblate_aspect_ratio(double reduced_volume);
 
 /// Reduced volume 6 sqrt(pi) V / A^{3/2}: 1 for the sphere.
 /// @throws std::invalid_argument unless both are finite and > 0.
-double reduced_volume(double area, double volume);
+VESIFLOW_VESICLE_EXPORT double reduced_volume(double area, double volume);
 
 }  // namespace vesiflow::vesicle

@@ -1,9 +1,12 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 
 namespace vesiflow::vesicle {
 
@@ -13,7 +16,7 @@ class Surface;
 inline constexpr double default_resolution_tolerance = 0.05;
 
 /// How the energy of fields on the sphere is spread over the degrees of their expansion, and how fast it falls.
-class Spectrum {
+class VESIFLOW_VESICLE_EXPORT Spectrum {
  public:
   /// @throws std::invalid_argument for fewer than four degrees or an energy that is not finite.
   explicit Spectrum(const Coefficients& coefficients);
@@ -46,11 +49,11 @@ class Spectrum {
 
 /// Spectrum of the mean curvature at the markers: what the bending force needs resolved. (The positions alone do not tell: an
 /// ellipsoid is of degree one.)
-Spectrum mean_curvature_spectrum(const Surface& surface);
+VESIFLOW_VESICLE_EXPORT Spectrum mean_curvature_spectrum(const Surface& surface);
 
 /// Fraction of the energy of the position coefficients (degrees n >= 1) in the top third of the degrees, n >=
 /// 2N/3. Near 0 for a resolved shape; growth announces loss of resolution.
-double spectrum_tail(const Surface& surface);
+VESIFLOW_VESICLE_EXPORT double spectrum_tail(const Surface& surface);
 
 /// How well N latitudes resolve a shape, by the degrees of its mean curvature that are more than the round-off of its positions.
 struct Resolution {
@@ -66,9 +69,9 @@ struct Resolution {
 };
 
 /// @throws std::invalid_argument unless tolerance > 0.
-Resolution resolution(const Surface& surface, double tolerance = default_resolution_tolerance);
+VESIFLOW_VESICLE_EXPORT Resolution resolution(const Surface& surface, double tolerance = default_resolution_tolerance);
 
 /// One sentence for people, e.g. "the shape needs N_theta >= 48 (it has 32): 4 % of ..."; empty if the resolution is sufficient.
-std::string resolution_warning(const Resolution& resolution);
+VESIFLOW_VESICLE_EXPORT std::string resolution_warning(const Resolution& resolution);
 
 }  // namespace vesiflow::vesicle

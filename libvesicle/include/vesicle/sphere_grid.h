@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/types.h"
 
 namespace vesiflow::vesicle {
@@ -11,7 +14,7 @@ namespace vesiflow::vesicle {
 ///
 /// Nodes come from Newton's method in theta (not the arccosine of a rounded cosine) in extended precision:
 /// the geometry near the poles inherits the relative accuracy of sin(theta).
-class SphereGrid {
+class VESIFLOW_VESICLE_EXPORT SphereGrid {
  public:
   /// Room for the finer grids on which products of the largest Surface are formed.
   static constexpr int largest_latitudes = 4096;

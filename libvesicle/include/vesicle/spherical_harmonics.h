@@ -1,9 +1,12 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <initializer_list>
 #include <memory>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 #include "vesicle/sphere_grid.h"
 #include "vesicle/types.h"
 
@@ -41,7 +44,7 @@ enum class Derivative { value, theta, phi, theta_theta, theta_phi, phi_phi };
 ///
 /// Large transforms use OpenMP threads, as many as OpenMP offered when the work space was made and at most one per
 /// processor; inside a parallel region they are serial. The bits do not depend on the number of threads.
-class SphericalHarmonics {
+class VESIFLOW_VESICLE_EXPORT SphericalHarmonics {
  public:
   using Input = Eigen::Ref<const Eigen::ArrayXXd>;
   using Output = Eigen::Ref<Eigen::ArrayXXd>;

@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <memory>
 
+#include "vesicle/export.h"
 #include "vesicle/sphere_grid.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface_geometry.h"
@@ -15,7 +18,7 @@ namespace vesiflow::vesicle {
 ///
 /// Only what is asked for is computed: update() computes the first form (tangents, normal, area), the curvatures follow when
 /// they are first asked for. Lap H is a matter of its own, see LaplaceBeltrami.
-class Surface {
+class VESIFLOW_VESICLE_EXPORT Surface {
  public:
   /// Up to here the transforms are tested.
   static constexpr int largest_latitudes = 512;

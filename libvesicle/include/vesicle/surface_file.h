@@ -1,8 +1,11 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <filesystem>
 
 #include "vesicle/coefficients.h"
+#include "vesicle/export.h"
 
 namespace vesiflow::vesicle {
 
@@ -19,11 +22,12 @@ inline constexpr int largest_file_degree = 512;
 /// @throws std::runtime_error with file and line, the value and what is allowed: a line that has not 8 numbers, n
 /// outside [0, 512], m outside [0, n], a number that is not finite, an imaginary part other than 0 of order 0, a pair
 /// (n, m) given twice, or no line at all; and if the file cannot be read.
-Coefficients read_surface_coefficients(const std::filesystem::path& path);
+VESIFLOW_VESICLE_EXPORT Coefficients read_surface_coefficients(const std::filesystem::path& path);
 
 /// Writes every coefficient with 17 digits, so that it reads back to the same bits.
 /// @throws std::invalid_argument unless there are three fields, at most 513 degrees and finite values,
 /// std::runtime_error if the file cannot be written.
-void write_surface_coefficients(const std::filesystem::path& path, const Coefficients& coefficients);
+VESIFLOW_VESICLE_EXPORT void write_surface_coefficients(const std::filesystem::path& path,
+                                                        const Coefficients& coefficients);
 
 }  // namespace vesiflow::vesicle

@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/types.h"
 
@@ -16,7 +19,7 @@ enum class GeometryDetail {
 ///   X^theta = (G X_theta - F X_phi) / (EG - F^2),  X^phi = (E X_phi - F X_theta) / (EG - F^2)
 /// with E = X_theta . X_theta, F = X_theta . X_phi, G = X_phi . X_phi. They make Eqs. (11) and (12) short:
 ///   grad s = s_theta X^theta + s_phi X^phi,  div U = U_theta . X^theta + U_phi . X^phi.
-class SurfaceGeometry {
+class VESIFLOW_VESICLE_EXPORT SurfaceGeometry {
  public:
   explicit SurfaceGeometry(const SphereGrid& grid);
 

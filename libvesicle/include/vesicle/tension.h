@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
 
@@ -26,7 +29,7 @@ struct TensionParameters {
 
 /// Elastic tension that keeps every surface element near its target area. The ratio J is taken of cell areas dA_ij, which
 /// is the ratio of the area elements |X_theta x X_phi|.
-class TensionForce {
+class VESIFLOW_VESICLE_EXPORT TensionForce {
  public:
   /// @throws std::invalid_argument unless sigma0 is finite and >= 0.
   explicit TensionForce(const TensionParameters& parameters);

@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
 
+#include "vesicle/export.h"
 #include "vesicle/types.h"
 
 namespace vesiflow::vesicle {
@@ -18,11 +21,11 @@ struct TriangleMesh {
 /// vertices at the same point, a vertex number out of range or twice in a triangle, a vertex of no triangle, an open
 /// edge, an edge of more than two triangles, a triangle that turns the other way than its neighbours, a vertex where
 /// the surface touches itself, more than one component, or a genus other than zero.
-void check_closed_genus_zero(const TriangleMesh& mesh);
+VESIFLOW_VESICLE_EXPORT void check_closed_genus_zero(const TriangleMesh& mesh);
 
 /// Checks that no triangle cuts through another that has no vertex in common with it. Touching is no crossing.
 /// @throws std::domain_error that names two that do, or a vertex number out of range.
-void check_no_crossings(const TriangleMesh& mesh);
+VESIFLOW_VESICLE_EXPORT void check_no_crossings(const TriangleMesh& mesh);
 
 /// Volume (1/6) sum det(a, b, c) over the triangles of a closed mesh, > 0 when they turn outward (counterclockwise seen
 /// from outside), and centroid of the enclosed volume.
@@ -31,6 +34,6 @@ struct EnclosedVolume {
   double volume = 0;
   Vector3 centroid = Vector3::Zero();
 };
-EnclosedVolume enclosed_volume(const TriangleMesh& mesh);
+VESIFLOW_VESICLE_EXPORT EnclosedVolume enclosed_volume(const TriangleMesh& mesh);
 
 }  // namespace vesiflow::vesicle

@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <filesystem>
 
+#include "vesicle/export.h"
 #include "vesicle/triangle_mesh.h"
 
 namespace vesiflow::vesicle {
@@ -9,7 +12,7 @@ namespace vesiflow::vesicle {
 /// Whether the file is a triangle mesh: by its first bytes where they say what it is, of the formats below or of another that
 /// this library can only name, and by the ending .obj, .off, .ply or .stl of its name where they do not.
 /// @throws std::runtime_error if the file cannot be read.
-bool is_triangle_mesh_file(const std::filesystem::path& path);
+VESIFLOW_VESICLE_EXPORT bool is_triangle_mesh_file(const std::filesystem::path& path);
 
 /// Reads a mesh. What the file holds decides how, whatever its name:
 /// - Wavefront OBJ: the `v` and `f` lines, with v/vt/vn corners, numbers relative to the end and lines continued after a
@@ -24,6 +27,6 @@ bool is_triangle_mesh_file(const std::filesystem::path& path);
 /// @throws std::runtime_error with file and line, or the number of the face in binary files, for anything else: other formats,
 /// by their name if it is known; text in UTF-16; a number that is not finite, a face of fewer than three corners, a
 /// corner that is no vertex, in OFF and PLY more or less than was counted; and if the file cannot be read.
-TriangleMesh read_triangle_mesh(const std::filesystem::path& path);
+VESIFLOW_VESICLE_EXPORT TriangleMesh read_triangle_mesh(const std::filesystem::path& path);
 
 }  // namespace vesiflow::vesicle

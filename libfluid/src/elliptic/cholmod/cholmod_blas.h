@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Keeps the BLAS that CHOLMOD calls to one thread.
 #pragma once
 

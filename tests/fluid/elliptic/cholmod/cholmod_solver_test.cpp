@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The "cholmod" backend: its matrix, limits, and the policy of factoring anew.
 #ifdef VESIFLOW_WITH_CHOLMOD
 #include <dlfcn.h>
