@@ -19,8 +19,8 @@ headers=(Eigen/Core fftw3.h cholmod.h hdf5.h xxhash.h toml++/toml.h CLI/CLI.hpp 
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
-dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind)
-dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind)
+dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr)
+dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr)
 
 case "${1:-}" in
   --test | --dev)
