@@ -149,7 +149,7 @@ done
 
 for library in "${libraries[@]}"; do
   while IFS=: read -r file included; do
-    [[ ! $included =~ ^(fftw3|cholmod|suitesparse|sundials|kinsol|cvode|arkode|hdf5|H5|omp\.h|toml|nlohmann) ]] ||
+    [[ ! $included =~ ^(fftw3|cholmod|suitesparse|sundials|kinsol|cvode|arkode|hdf5|H5|xxhash|omp\.h|toml|nlohmann) ]] ||
       complain "public headers show no third-party library but Eigen: $file includes <$included>"
   done < <(includes "lib$library/include")
 done
@@ -157,7 +157,7 @@ done
 # Files of scenes and results, a logger and signals are matters of programs: of librun.
 for library in vesicle fluid coupling; do
   while IFS=: read -r file included; do
-    [[ ! $included =~ ^(toml\+\+|nlohmann|spdlog|hdf5|H5|CLI|csignal|signal\.h) ]] ||
+    [[ ! $included =~ ^(toml\+\+|nlohmann|spdlog|hdf5|H5|xxhash|CLI|csignal|signal\.h) ]] ||
       complain "libraries of numerics know no files of scenes or results, no logger and no signals: $file includes <$included>"
   done < <(includes "lib$library")
 done

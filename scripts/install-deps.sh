@@ -12,17 +12,17 @@ cd "$(dirname "$0")/.."
 
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libfftw3-dev libsuitesparse-dev libopenblas-dev libhdf5-dev
+  libeigen3-dev libfftw3-dev libsuitesparse-dev libopenblas-dev libhdf5-dev libxxhash-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
   python3 python3-numpy python3-matplotlib python3-h5py
 )
 commands=(g++ cmake ninja)
-headers=(Eigen/Core fftw3.h cholmod.h hdf5.h toml++/toml.h CLI/CLI.hpp spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h)
+headers=(Eigen/Core fftw3.h cholmod.h hdf5.h xxhash.h toml++/toml.h CLI/CLI.hpp spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
-dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind)
-dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind)
+dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr)
+dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr)
 
 case "${1:-}" in
   --test | --dev)

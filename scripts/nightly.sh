@@ -10,6 +10,7 @@
 #   memory       scripts/check_memory.sh
 #   fuzz         fuzz/run.sh, ten minutes each target
 #   tidy         clang-tidy on every source
+#   coverage     which share of the lines of the libraries and apps the tests reach, by file in build/coverage/coverage.txt
 #   kills        validation/kills.py: 200 runs killed at any moment go on to the same bits
 #   faults       validation/faults.py: disks, permissions, descriptors and memory that run out
 #   hostile      validation/hostile_starts.py: starts that no one should choose
@@ -17,7 +18,7 @@ set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
-checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy kills faults hostile)
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy coverage kills faults hostile)
 for check in "$@"; do
   [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
 done
@@ -46,6 +47,16 @@ validate() {
   scripts/python.sh "validation/$1.py" --apps build/nightly-native/apps "${@:2}"
 }
 
+# All tests with counters, which threads share and tests that run side by side add to.
+cover() {
+  build coverage --preset coverage
+  find build/coverage -name '*.gcda' -delete
+  run_tests coverage --test-dir build/coverage
+  logged build/coverage/gcovr.log "Counting lines" gcovr --root . --object-directory build/coverage \
+    --filter 'lib[a-z]+/' --filter common/ --filter apps/ --print-summary --txt build/coverage/coverage.txt
+  grep '^lines:' build/coverage/gcovr.log
+}
+
 perform() {
   case $1 in
     x86-64-v* | native)
@@ -64,6 +75,7 @@ perform() {
     memory) scripts/check_memory.sh ;;
     fuzz) fuzz/run.sh 600 ;;
     tidy) build tidy --preset tidy ;;
+    coverage) cover ;;
     kills | faults) validate "$1" ;;
     hostile) validate hostile_starts --jobs "$(nproc)" ;;
   esac

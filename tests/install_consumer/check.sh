@@ -47,13 +47,13 @@ refused() {
 
 quietly cmake --install "$build" --prefix "$prefix"
 no_optional=()
-for package in HDF5 HDF5C SUNDIALS spdlog fmt; do
+for package in HDF5 HDF5C SUNDIALS XxHash spdlog fmt; do
   no_optional+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 consume vesicle curvatures "${no_optional[@]}"
 consume fluid channel "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
 consume coupling tank_treading -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON -DCMAKE_DISABLE_FIND_PACKAGE_HDF5C=ON \
-  -DCMAKE_DISABLE_FIND_PACKAGE_tomlplusplus=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_tomlplusplus=ON -DCMAKE_DISABLE_FIND_PACKAGE_XxHash=ON
 if [[ $(wc -l <"$here/coupling/main.cpp") -ge 50 ]]; then
   echo "tests/install_consumer/coupling/main.cpp: a program without a configuration file takes less than 50 lines" >&2
   exit 1
