@@ -150,7 +150,7 @@ TEST(ShapeFollowing, WarmedUpStepsAllocateNothing) {
   for (const Overrides& overrides : {Overrides{}, {"fluid.viscosity_ratio=5"}, {"vesicles.0.reduced_volume=0.9999"}}) {
     Scene scene = following(6000, overrides);
     scene.mesh.redistribute = Redistribute::never;
-    Simulation simulation(scene);
+    SceneSimulation simulation(scene);
     for (int i = 0; i < 4; ++i) simulation.step();
     const long before = test::allocation_count();
     for (int i = 0; i < 2; ++i) simulation.step();
