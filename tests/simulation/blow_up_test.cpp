@@ -165,7 +165,7 @@ TEST_F(BlowUpTest, LeavesACheckpointOfBefore) {
 }
 
 TEST_F(BlowUpTest, GoesBackAndTakesHalfTheStep) {
-  const Overrides keys = with(unstable, {"ending.on_blowup=reduce_step", "time.end=0.3"});
+  const Overrides keys = with(unstable, {"limits.on_blowup=reduce_step", "time.end=0.3"});
   EXPECT_EQ(run_scene(small_scene(keys)), RunStatus::completed);
   const auto numbers = summary();
   ASSERT_EQ(numbers["retries"].size(), 1);
@@ -204,7 +204,7 @@ TEST_F(BlowUpTest, GoesBackAndTakesHalfTheStep) {
 TEST_F(BlowUpTest, GoesBackNoMoreOftenThanItMay) {
   // No step is short enough for a membrane that may not change at all.
   const Overrides keys =
-      with(unstable, {"ending.on_blowup=reduce_step", "limits.local_area_error=1e-9", "ending.retries=2"});
+      with(unstable, {"limits.on_blowup=reduce_step", "limits.local_area_error=1e-9", "limits.retries=2"});
   EXPECT_THROW(run_scene(small_scene(keys)), SimulationStopped);
   const auto retries = summary()["retries"];
   ASSERT_EQ(retries.size(), 2);
@@ -213,19 +213,19 @@ TEST_F(BlowUpTest, GoesBackNoMoreOftenThanItMay) {
 }
 
 TEST_F(BlowUpTest, AStableRunHasLittleNoiseAndNoRetries) {
-  EXPECT_EQ(run_scene(small_scene({"membrane.g=2", "ending.on_blowup=reduce_step", "time.end=0.3"})),
+  EXPECT_EQ(run_scene(small_scene({"membrane.g=2", "limits.on_blowup=reduce_step", "time.end=0.3"})),
             RunStatus::completed);
   EXPECT_LT(summary()["largest_errors"]["velocity_noise"], 0.02);
   EXPECT_TRUE(summary()["retries"].empty());
 }
 
 TEST_F(BlowUpTest, NeedsCheckpointsAndEqualSteps) {
-  EXPECT_THROW(small_scene({"ending.on_blowup=reduce_step", "output.checkpoint_every=0"}), SceneError);
-  EXPECT_THROW(small_scene({"ending.on_blowup=reduce_step", "time.adaptive=true"}), SceneError);
+  EXPECT_THROW(small_scene({"limits.on_blowup=reduce_step", "output.checkpoint_every=0"}), SceneError);
+  EXPECT_THROW(small_scene({"limits.on_blowup=reduce_step", "time.adaptive=true"}), SceneError);
 }
 
 TEST_F(BlowUpTest, ARunThatIsOutOfTimeLeavesACheckpoint) {
-  EXPECT_EQ(run_scene(small_scene({"time.end=1000", "ending.wall_time=0.1"})), RunStatus::out_of_time);
+  EXPECT_EQ(run_scene(small_scene({"time.end=1000", "limits.wall_time=0.1"})), RunStatus::out_of_time);
   EXPECT_EQ(run::exit_code::of(RunStatus::out_of_time), 6);
   const auto numbers = summary();
   EXPECT_EQ(numbers["status"], "out of time");

@@ -121,7 +121,7 @@ TEST(ThicknessCorrection, IsRefusedWhereItIsUnstable) {
   };
   EXPECT_EQ(message("time.markers=euler"), "accepted");
   EXPECT_EQ(message("time.markers=shape_following"), "accepted");  // its implicit part is then that of a thin membrane
-  EXPECT_NE(message("membrane.g=4").find("this scene has 4; take time.step <= 0.0052"), std::string::npos);
+  EXPECT_NE(message("membrane.g=4").find("and here it is 4; take time.step <= 0.0052"), std::string::npos);
 }
 
 TEST(ThicknessCorrection, IsRefusedWhereInertiaCounts) {

@@ -41,21 +41,22 @@ TEST(OwnForces, BuoyancyByAProgramIsBuoyancy) {
   EXPECT_LT((a - b).abs().maxCoeff(), 1e-3 * std::abs(b.col(2).mean()));
 }
 
-// A gradient drives nothing between walls: the pressure takes it up. A rotation about y turns the vesicle.
+// A gradient drives nothing between walls: the pressure takes it up, at once where velocity and pressure are solved for together. A rotation
+// about y turns the vesicle for as long as it is there.
 TEST(OwnForces, OfTheFluidMovesWhatThePressureCannotTakeUp) {
-  Simulation at_rest(sphere_between_walls(), flow_at_rest()), turning(sphere_between_walls(), flow_at_rest());
-  const vesicle::VectorField start = at_rest.membrane(0).positions();
+  SimulationParameters parameters = sphere_between_walls();
+  parameters.fluid.inertia = fluid::Inertia::none;
+  Simulation at_rest(parameters, flow_at_rest()), turning(parameters, flow_at_rest());
   at_rest.set_fluid_force([](const fluid::Vector3& x, double) { return fluid::Vector3{x[0], -2.0 * x[1], x[2]}; });
   turning.set_fluid_force([](const fluid::Vector3& x, double) { return fluid::Vector3{x[2], 0.0, -x[0]}; });
-  const double still = (positions_after(at_rest, 6) - start).abs().maxCoeff();
+  positions_after(at_rest, 2);
+  positions_after(turning, 2);
   const double speed = turning.marker_velocity(0).abs().maxCoeff();
-  positions_after(turning, 6);
-  EXPECT_EQ(speed, 0.0);
-  EXPECT_LT(still, 1e-10);
-  EXPECT_GT(turning.marker_velocity(0).abs().maxCoeff(), 0.1);
+  EXPECT_GT(speed, 0.1);
+  EXPECT_LT(at_rest.marker_velocity(0).abs().maxCoeff(), 1e-5 * speed);
   turning.set_fluid_force(nullptr);
-  positions_after(turning, 12);
-  EXPECT_LT(turning.marker_velocity(0).abs().maxCoeff(), 1e-3);
+  positions_after(turning, 12);  // what the membrane was strained dies out
+  EXPECT_LT(turning.marker_velocity(0).abs().maxCoeff(), 1e-2 * speed);
 }
 
 TEST(OwnForces, ThereMustBeAFunction) {
