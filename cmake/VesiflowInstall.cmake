@@ -3,6 +3,8 @@
 # The package behind find_package(Vesiflow COMPONENTS ...): one export set per library, so that a component can
 # be installed without the others and asks for its own dependencies only. (The libraries' own files: vesiflow_library().)
 include(CMakePackageConfigHelpers)
+include(VesiflowVersion)
+include(VesiflowPkgConfig)
 set(find_modules "")
 
 # How a consumer finds what the exported targets link to, by namespace of the target.
@@ -37,7 +39,10 @@ foreach(library IN LISTS VESIFLOW_LIBRARIES)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/Vesiflow_${library}_needs.cmake
     CONTENT "set(Vesiflow_${library}_needs \"${needs}\")\n")
   set_target_properties(vesiflow_${library} PROPERTIES INSTALL_RPATH "$ORIGIN")  # shared libraries find their siblings
+  vesiflow_describe_build(${library})
+  vesiflow_pkg_config(${library})
 endforeach()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/version.h.in ${PROJECT_BINARY_DIR}/include/vesiflow/version.h @ONLY)
 
 # Of the modules that find these packages, some are ours.
 list(REMOVE_DUPLICATES find_modules)

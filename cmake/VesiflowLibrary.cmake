@@ -61,6 +61,7 @@ function(vesiflow_library name)
   endif()
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+           $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>  # vesiflow/version.h
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/common)
   target_link_libraries(${target} PRIVATE ${CMAKE_DL_LIBS})  # of common/short_waits.cpp
@@ -72,6 +73,8 @@ function(vesiflow_library name)
   install(TARGETS ${target} EXPORT Vesiflow_${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow)
+  install(FILES ${PROJECT_BINARY_DIR}/include/vesiflow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow/vesiflow)
+  install(FILES ${PROJECT_BINARY_DIR}/vesiflow-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
   install(EXPORT Vesiflow_${name} NAMESPACE Vesiflow:: DESTINATION ${VESIFLOW_CONFIG_DIR})
   install(FILES ${PROJECT_BINARY_DIR}/Vesiflow_${name}_needs.cmake DESTINATION ${VESIFLOW_CONFIG_DIR})  # by VesiflowInstall.cmake
 endfunction()

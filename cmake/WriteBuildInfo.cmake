@@ -6,7 +6,7 @@ execute_process(COMMAND git -C ${SOURCE} describe --always --dirty --abbrev=12
 if(NOT status EQUAL 0)
   set(revision "unknown")
 endif()
-set(text "#pragma once\n#define VESIFLOW_VERSION \"${VERSION}\"\n#define VESIFLOW_GIT_REVISION \"${revision}\"\n")
+set(text "#pragma once\n#define VESIFLOW_GIT_REVISION \"${revision}\"\n")
 if(EXISTS ${OUTPUT})
   file(READ ${OUTPUT} old)
 endif()

@@ -18,7 +18,7 @@ packages=(
 )
 commands=(g++ cmake ninja)
 headers=(Eigen/Core fftw3.h cholmod.h hdf5.h xxhash.h toml++/toml.h CLI/CLI.hpp spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
+test_packages=(pkgconf libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
 dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr)

@@ -5,6 +5,9 @@
 # usage: scripts/nightly.sh [CHECK...]      (all checks unless named; a few hours on two cores)
 #   x86-64-v2, x86-64-v3, x86-64-v4, native   everything, benchmarks too, compiled for these processors with warnings as errors; the
 #                tests are run where this machine can
+#   compilers    libraries and apps by g++ and clang++, as C++20 and C++23, shared and static, each pair of these at least once; programs
+#                outside the tree by the same compiler against what is installed, and with the tree as a part of their project
+#   bare         libraries and apps without SUNDIALS, CHOLMOD and HDF5
 #   sanitizers   all tests with the address and undefined-behaviour sanitizers
 #   threads      scripts/check_threads.sh
 #   memory       scripts/check_memory.sh
@@ -18,7 +21,7 @@ set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
-checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy coverage kills faults hostile)
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native compilers bare sanitizers threads memory fuzz tidy coverage kills faults hostile)
 for check in "$@"; do
   [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
 done
@@ -39,6 +42,22 @@ run_tests() {
 build_for() {
   build "nightly-$1" -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_ARCH="$1" -DVESIFLOW_WERROR=ON \
     -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BUILD_BENCH=ON
+}
+
+# build_with COMPILER STANDARD SHARED: and consumes what is installed.
+build_with() {
+  local name=nightly-$1-$2-shared-$3
+  build "$name" -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" -DBUILD_SHARED_LIBS="$3" \
+    -DVESIFLOW_WERROR=ON -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=OFF
+  CXX=$1 tests/install_consumer/check.sh "build/$name" -DCMAKE_CXX_STANDARD="$2" -DBUILD_SHARED_LIBS="$3"
+}
+
+# Nothing that is left out is looked for either.
+build_bare() {
+  local options=() package
+  for package in SUNDIALS CHOLMOD HDF5; do options+=("-DVESIFLOW_WITH_$package=OFF"); done
+  for package in SUNDIALS CHOLMOD HDF5C; do options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+  build nightly-bare -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_WERROR=ON -DVESIFLOW_BUILD_TESTS=OFF "${options[@]}"
 }
 
 # validate SCRIPT OPTION...: one of validation/, with the apps for this machine.
@@ -67,6 +86,14 @@ perform() {
         run_tests "nightly-$1" --test-dir "build/nightly-$1"
       fi
       ;;
+    compilers)
+      build_with g++ 20 ON
+      build_with g++ 23 OFF
+      build_with clang++ 20 OFF
+      build_with clang++ 23 ON
+      tests/install_consumer/subproject.sh
+      ;;
+    bare) build_bare ;;
     sanitizers)
       build asan-ubsan --preset asan-ubsan
       run_tests asan-ubsan --preset asan-ubsan

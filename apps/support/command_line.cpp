@@ -12,6 +12,7 @@
 #include "completion.h"
 #include "passive_waiting.h"
 #include "streams.h"
+#include "vesiflow/version.h"
 
 namespace {
 

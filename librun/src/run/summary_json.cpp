@@ -11,6 +11,7 @@
 #include "run/results.h"
 #include "run/vesicle_record.h"
 #include "scene/scene_keys.h"
+#include "vesiflow/version.h"
 
 namespace vesiflow::run {
 namespace {
