@@ -10,6 +10,7 @@
 #   memory       scripts/check_memory.sh
 #   fuzz         fuzz/run.sh, ten minutes each target
 #   tidy         clang-tidy on every source
+#   docs         scripts/docs.sh
 #   kills        validation/kills.py: 200 runs killed at any moment go on to the same bits
 #   faults       validation/faults.py: disks, permissions, descriptors and memory that run out
 #   hostile      validation/hostile_starts.py: starts that no one should choose
@@ -17,7 +18,7 @@ set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
-checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy kills faults hostile)
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy docs kills faults hostile)
 for check in "$@"; do
   [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
 done
@@ -64,6 +65,7 @@ perform() {
     memory) scripts/check_memory.sh ;;
     fuzz) fuzz/run.sh 600 ;;
     tidy) build tidy --preset tidy ;;
+    docs) scripts/docs.sh ;;
     kills | faults) validate "$1" ;;
     hostile) validate hostile_starts --jobs "$(nproc)" ;;
   esac
