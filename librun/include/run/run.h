@@ -74,8 +74,8 @@ enum class RunStatus {
 /// repeated.
 /// \throws SceneError for a checkpoint of another scene, or a run to start from that does not fit.
 /// \throws FileError when a file cannot be read or written, or another run has the directory.
-/// \throws coupling::SimulationStopped, with step, time, cause and last checkpoint in its message, when the run cannot
-/// go on.
+/// \throws coupling::SimulationStopped with step, time, cause and last checkpoint in its message when the run cannot go
+/// on.
 VESIFLOW_RUN_EXPORT RunStatus run(SceneSimulation& simulation, const RunOptions& options);
 
 /// Exit codes of programs, documented in docs/results.md.

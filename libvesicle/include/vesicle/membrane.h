@@ -99,8 +99,9 @@ class VESIFLOW_VESICLE_EXPORT Membrane {
   /// distinct.
   /// \param velocity interpolated U, shape (markers, 3).
   /// \param filtered U~, shape (markers, 3).
-  /// \throws std::invalid_argument and std::domain_error as MeshFilter::apply() and, with a projection,
+  /// \throws std::invalid_argument as MeshFilter::apply() and, with a projection,
   /// ConservationProjection::correct_velocity().
+  /// \throws std::domain_error as these.
   void filter_velocity(const VectorField& velocity, double dt, VectorField& filtered);
 
   /// Changes a displacement of the markers, shape (markers, 3), so that it ends at the volume and area that are kept by
