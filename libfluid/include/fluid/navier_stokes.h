@@ -81,6 +81,7 @@ struct FluidReport {
 };
 
 /// Incompressible Navier-Stokes equations in a box: semi-implicit BDF2 with rotational incremental pressure correction.
+///
 /// Solves
 ///
 ///     Re [du/dt + (u.grad)u] = -grad p + div(mu (grad u + grad u^T)) + f,   div u = 0,

@@ -32,7 +32,9 @@ struct StokesReport {
   double seconds = 0.0;                        ///< wall time of this solve, in seconds
 };
 
-/// The Stokes equations, velocity and pressure together. Solves
+/// The Stokes equations, velocity and pressure together.
+///
+/// Solves
 ///
 ///     -div(mu (grad u + grad u^T)) + grad p = f,   div u = 0,   u given on the walls, symmetric about mirrors,
 ///
