@@ -4,7 +4,7 @@
 # Installs what building and running the programs and plotting their results need; silent when nothing is missing.
 # usage: scripts/install-deps.sh [--test | --dev]
 #   --test   also what the tests and benchmarks need, and SUNDIALS, whose Debian package brings PETSc, MPI and Fortran along
-#   --dev    also the tools of the format and script checks, the fuzz targets and the sanitizers
+#   --dev    also the tools of the format, script and documentation checks, the fuzz targets and the sanitizers
 # Knows Debian 12 and later; elsewhere it only checks, and names what is missing.
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
@@ -21,8 +21,8 @@ headers=(Eigen/Core fftw3.h cholmod.h hdf5.h xxhash.h toml++/toml.h CLI/CLI.hpp 
 test_packages=(pkgconf libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
-dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr)
-dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr)
+dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr doxygen)
+dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr doxygen)
 
 case "${1:-}" in
   --test | --dev)

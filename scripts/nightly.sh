@@ -14,6 +14,7 @@
 #   fuzz         fuzz/run.sh, ten minutes each target
 #   tidy         clang-tidy on every source
 #   coverage     which share of the lines of the libraries and apps the tests reach, by file in build/coverage/coverage.txt
+#   docs         scripts/docs.sh
 #   kills        validation/kills.py: 200 runs killed at any moment go on to the same bits
 #   faults       validation/faults.py: disks, permissions, descriptors and memory that run out
 #   hostile      validation/hostile_starts.py: starts that no one should choose
@@ -21,7 +22,7 @@ set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
-checks=(x86-64-v2 x86-64-v3 x86-64-v4 native compilers bare sanitizers threads memory fuzz tidy coverage kills faults hostile)
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native compilers bare sanitizers threads memory fuzz tidy docs coverage kills faults hostile)
 for check in "$@"; do
   [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
 done
@@ -103,6 +104,7 @@ perform() {
     fuzz) fuzz/run.sh 600 ;;
     tidy) build tidy --preset tidy ;;
     coverage) cover ;;
+    docs) scripts/docs.sh ;;
     kills | faults) validate "$1" ;;
     hostile) validate hostile_starts --jobs "$(nproc)" ;;
   esac

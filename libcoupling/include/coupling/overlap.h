@@ -11,14 +11,14 @@
 
 namespace vesiflow::coupling {
 
-/// Whether any of the markers (markers x 3) lies inside the surface or on it, by the solid angle under which it sees the
-/// surface. The surface must be up to date. `shift` is added to the markers. Costs the product of the numbers of markers
-/// where their bounds meet, and nothing where they do not.
+/// Whether any of the markers (markers x 3) lies inside the surface or on it, by the solid angle under which it sees
+/// the surface. The surface must be up to date. `shift` is added to the markers. Costs the product of the numbers of
+/// markers where their bounds meet, and nothing where they do not.
 VESIFLOW_COUPLING_EXPORT bool overlap(const vesicle::Surface& surface, const vesicle::VectorField& markers,
                                       const vesicle::Vector3& shift = vesicle::Vector3::Zero());
 
-/// For each membrane the least distance between its markers and those of any other, images by periods and in mirror planes included (of itself too);
-/// infinite where there is no other. All arrays are (markers x 3).
+/// For each membrane the least distance between its markers and those of any other, images by periods and in mirror
+/// planes included (of itself too); infinite where there is no other. All arrays are (markers x 3).
 VESIFLOW_COUPLING_EXPORT std::vector<double> nearest_distances(const fluid::Grid& grid,
                                                                std::span<const vesicle::VectorField* const> membranes);
 

@@ -10,9 +10,9 @@
 
 namespace vesiflow::run {
 
-/// What a run of this scene will do, for people: resolution, memory, solvers, what each step computes and what it
-/// skips and why, what is written how often, and what all of it takes of time, memory and the disk that `directory` is on. Nothing
-/// of the size of the grid is allocated.
+/// What a run of this scene will do, for people: resolution, memory, solvers, what each step computes and what it skips
+/// and why, what is written how often, and what all of it takes of time, memory and the disk that `directory` is on.
+/// Nothing of the size of the grid is allocated.
 VESIFLOW_RUN_EXPORT std::string describe_plan(const Scene& scene, int threads,
                                               const std::filesystem::path& directory = ".");
 

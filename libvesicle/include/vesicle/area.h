@@ -8,8 +8,9 @@
 
 namespace vesiflow::vesicle {
 
-/// Adds the force per unit area F_a = -c_a (A - A0)/A0 2 H n, which keeps the total area, to `force`, shape (markers, 3).
-/// @throws std::invalid_argument unless target_area > 0 and stiffness >= 0, both finite.
+/// Adds the force per unit area F_a = -c_a (A - A0)/A0 2 H n, which keeps the total area, to `force`, shape (markers,
+/// 3).
+/// \throws std::invalid_argument unless target_area > 0 and stiffness >= 0, both finite.
 VESIFLOW_VESICLE_EXPORT void add_area_penalty(const Surface& surface, double stiffness, double target_area,
                                               VectorField& force);
 
@@ -17,7 +18,8 @@ VESIFLOW_VESICLE_EXPORT void add_area_penalty(const Surface& surface, double sti
 VESIFLOW_VESICLE_EXPORT double area_penalty_energy(const Surface& surface, double stiffness, double target_area);
 
 /// dA/dt of markers that move with `velocity`, shape (markers, 3): int 2 H U . n dA.
-/// @throws std::invalid_argument for a wrong size, std::domain_error if the velocity is not finite.
+/// \throws std::invalid_argument for a wrong size.
+/// \throws std::domain_error if the velocity is not finite.
 VESIFLOW_VESICLE_EXPORT double area_rate(const Surface& surface, const VectorField& velocity);
 
 }  // namespace vesiflow::vesicle

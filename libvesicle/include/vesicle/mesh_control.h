@@ -26,12 +26,14 @@ enum class FilterOrder {
 class VESIFLOW_VESICLE_EXPORT MeshFilter {
  public:
   /// Numbers of degrees kept; those beyond the mesh's `latitudes` degrees mean all of them.
-  /// @throws std::invalid_argument unless both are >= 1.
+  /// \throws std::invalid_argument unless both are >= 1.
   MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_degrees, int tangential_degrees);
 
-  /// filtered: shape (markers, 3), resized if needed; must not be `velocity`.
-  /// @throws std::invalid_argument if velocity has the wrong size or the surface lives on another grid, std::domain_error if velocity is not finite (filtered is then as it
-  /// was).
+  /// Filters a marker velocity.
+  /// \param velocity U, shape (markers, 3).
+  /// \param filtered U~, shape (markers, 3), resized if needed; must not be `velocity`.
+  /// \throws std::invalid_argument if velocity has the wrong size or the surface lives on another grid.
+  /// \throws std::domain_error if velocity is not finite (filtered is then as it was).
   void apply(const Surface& surface, const VectorField& velocity, VectorField& filtered);
 
  private:
@@ -58,13 +60,18 @@ enum class SlipReference {
 /// Section 3.3).
 class VESIFLOW_VESICLE_EXPORT TargetAreaUpdate {
  public:
+  /// For surfaces on that grid.
   TargetAreaUpdate(const SphereGrid& grid, SlipReference reference);
 
   /// One step of Eqs. (33) and (32) with the geometry before the move:
-  ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
-  /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
-  /// @throws std::invalid_argument for a wrong size or a surface on another grid, std::domain_error if a result is not finite and > 0 (target_areas is as it
-  /// was).
+  ///
+  ///     ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
+  ///
+  /// \param velocity U, shape (markers, 3).
+  /// \param filtered U~, shape (markers, 3).
+  /// \param target_areas dA0, shape (markers).
+  /// \throws std::invalid_argument for a wrong size or a surface on another grid.
+  /// \throws std::domain_error if a result is not finite and > 0 (target_areas is as it was).
   void apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered, double dt,
              double total_area, ScalarField& target_areas);
 

@@ -9,7 +9,7 @@
 namespace vesiflow::vesicle {
 
 /// Adds the penalty force per unit area of Eq. (22), F_v = -c_v (V - V0)/V0 n, to `force`, shape (markers, 3).
-/// @throws std::invalid_argument unless target_volume > 0 and stiffness >= 0, both finite.
+/// \throws std::invalid_argument unless target_volume > 0 and stiffness >= 0, both finite.
 VESIFLOW_VESICLE_EXPORT void add_volume_penalty(const Surface& surface, double stiffness, double target_volume,
                                                 VectorField& force);
 
