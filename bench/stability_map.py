@@ -7,7 +7,8 @@ usage: scripts/python.sh bench/stability_map.py MAP... [--quick] [--jobs N] [--a
 
 Each map runs its scenes with one thread each (--jobs N: N at a time), and writes bench/results/stability/MAP.LEVEL.json and
 docs/figures/stability_MAP.png. --quick takes fewer cells of each map. What has been run is not run again, and what was interrupted goes
-on: results are in out/stability. --docs puts the stored tables, the full ones where there are both, into docs/stability.md.
+on: results are in out/stability. --docs puts the stored tables, the full ones where there are both, into
+docs/studies/stability_maps.md.
 """
 
 import argparse
@@ -27,7 +28,7 @@ from stability import long_runs, maps, picture, verdicts  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results" / "stability"
 FIGURES = ROOT / "docs" / "figures"
-PAGE = ROOT / "docs" / "stability.md"
+PAGE = ROOT / "docs" / "studies" / "stability_maps.md"
 NAMES = [*maps.ALL, long_runs.NAME]
 
 
@@ -129,7 +130,7 @@ def main():
     parser.add_argument("--quick", dest="level", action="store_const", const="quick", default="full", help="fewer cells of each map")
     parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1)")
     parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
-    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/stability.md")
+    parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies/stability_maps.md")
     options = parser.parse_args()
     signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
     unknown = [name for name in options.maps if name != "all" and name not in NAMES]

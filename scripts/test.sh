@@ -31,4 +31,5 @@ fi
 
 scripts/check_dependencies.sh
 scripts/check_headers.sh
+scripts/check_links.sh
 tests/install_consumer/check.sh build/test

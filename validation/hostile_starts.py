@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Starts that no one should choose: each gives a right answer, a refusal or a warning. The table of docs/stability.md.
+"""Starts that no one should choose: each gives a right answer, a refusal or a warning. The table of
+docs/studies/hostile_starts.md.
 
 usage: scripts/python.sh validation/hostile_starts.py [--jobs N] [--apps build/release/apps] [--docs]
 
 "Right" is measured against the same scene on a grid twice as fine (or the one the case names). Results are in out/hostile, the table in
-bench/results/stability/hostile_starts.json; --docs puts it into docs/stability.md. What has been run is not run again. tests/coupling/hostile_starts_test.cpp has
+bench/results/stability/hostile_starts.json; --docs puts it into docs/studies/hostile_starts.md. What has been run is not run again. tests/coupling/hostile_starts_test.cpp has
 the quick ones.
 """
 
@@ -20,7 +21,7 @@ from harness.runs import ROOT, Run
 
 STORE = ROOT / "out" / "hostile"
 RESULT = ROOT / "bench" / "results" / "stability" / "hostile_starts.json"
-PAGE = ROOT / "docs" / "stability.md"
+PAGE = ROOT / "docs" / "studies" / "hostile_starts.md"
 SINGLE, PAIR = "scenes/paper/half_box.toml", "validation/hostile/pair.toml"
 QUIET = {"output.vesicle_every": 0, "output.checkpoint_every": 0}
 SMALL = QUIET | {"domain.lower": [-3, 0, -3], "domain.upper": [3, 3, 3], "domain.cells": [32, 16, 32], "mesh.latitudes": 24, "membrane.sigma0": 2000,
@@ -146,7 +147,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--apps", default="build/release/apps")
-    parser.add_argument("--docs", action="store_true", help="put the table into docs/stability.md")
+    parser.add_argument("--docs", action="store_true", help="put the table into docs/studies/hostile_starts.md")
     options = parser.parse_args()
     program = ROOT / pathlib.Path(options.apps) / "vesicles"
     results = [carry_out(case, program, options.jobs) for case in CASES] + list(restarts(program))

@@ -1,4 +1,4 @@
-"""Tables as they are stored, printed and put into docs/validation.md."""
+"""Tables as they are stored, printed and put into the pages of docs/."""
 
 import math
 import re

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Checks that every relative link of the documents leads somewhere: the file exists, and so does the heading that an anchor names.
+# Where sources and scripts name a page or a section of docs/, it exists too.
+# usage: scripts/check_links.sh
+set -euo pipefail
+. "$(dirname "$0")/lib.sh"
+cd "$(dirname "$0")/.."
+no_more_options "$@"
+
+exec python3 - <<'CHECK'
+import functools
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(".").resolve()
+SOURCES = {".h", ".cpp", ".py", ".sh", ".txt", ".toml"}
+
+
+def files():
+    folders = [p for p in ROOT.iterdir() if p.is_dir() and p.name not in ("build", "out") and not p.name.startswith(".")]
+    yield from (p for p in ROOT.iterdir() if p.is_file())
+    yield from (p for folder in folders for p in folder.rglob("*") if p.is_file())
+
+
+def prose(page):
+    """The text of a page without its code, which may look like links and headings."""
+    text = re.sub(r"^(```|~~~).*?^\1", "", page.read_text(), flags=re.MULTILINE | re.DOTALL)
+    return re.sub(r"(?<=\n\n)(?: {4}.*\n)+", "", text)
+
+
+@functools.cache
+def anchors(page):
+    """Of the headings, as GitHub makes them: lower case, no punctuation, hyphens for spaces, numbered where they repeat."""
+    seen, names = {}, set()
+    for title in re.findall(r"^#{1,6} +(.*?) *#*$", prose(page), flags=re.MULTILINE):
+        title = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", title)
+        name = re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
+        seen[name] = seen.get(name, -1) + 1
+        names.add(f"{name}-{seen[name]}" if seen[name] else name)
+    return names
+
+
+def problem(source, target):
+    path, _, anchor = target.partition("#")
+    page = (source.parent / path).resolve() if path else source
+    if not page.exists():
+        return "no such file"
+    if anchor and page.suffix == ".md" and anchor not in anchors(page):
+        return "no such heading"
+    return None
+
+
+def links(page):
+    text = re.sub(r"`[^`\n]*`", "", prose(page))
+    for target in re.findall(r"\]\(<?([^)\s>]+)>?(?: \"[^\"]*\")?\)", text) + re.findall(r"^\[[^]]+\]: +(\S+)", text, flags=re.MULTILINE):
+        if not re.match(r"[a-z]+:", target):
+            yield target
+
+
+failed, count = False, 0
+for file in sorted(files()):
+    if file.suffix == ".md":
+        found = [(target, problem(file, target)) for target in links(file)]
+    elif file.suffix in SOURCES:
+        named = re.findall(r"(?<![\w/.])docs/[\w/]+\.md(?:#[\w-]+)?", file.read_text(errors="replace"))
+        found = [(target, problem(ROOT / "of the root", target)) for target in named]
+    else:
+        continue
+    count += len(found)
+    for target, wrong in found:
+        if wrong:
+            failed = True
+            print(f"{file.relative_to(ROOT)}: {target}: {wrong}", file=sys.stderr)
+if failed:
+    sys.exit(1)
+print(f"links of the documents: {count}, all lead somewhere")
+CHECK
