@@ -141,7 +141,10 @@ def study(program, count, seed, report):
             chain.carry_out(count - kills)
             kills, restarts, finished = kills + chain.kills, restarts + chain.restarts, finished + 1
             moments += chain.moments
-            problems += chain.problems + [f"{variant}: {d}" for d in written.differences(folder, chain.folder)]
+            found = chain.problems + [f"{variant}: {d}" for d in written.differences(folder, chain.folder)]
+            for problem in found:
+                report(problem)
+            problems += found
             growth.append(written.size(chain.folder) / written.size(folder))
             report(f"{kills} kills, {finished} runs finished, {len(problems)} problems")
     return {"kills": kills, "runs": finished, "restarts_from_checkpoints": restarts, "killed": dict(sorted(moments.items())),
