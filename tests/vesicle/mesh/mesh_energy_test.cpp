@@ -85,7 +85,8 @@ TEST(MeshEnergyDescent, DirectionIsThePreconditionedForceAndLeadsDown) {
     descent.direction(few, surface, direction);
     EXPECT_EQ(largest(direction - preconditioned), 0);
     EXPECT_GT(inner(surface.grid(), force, direction), 0);
-    EXPECT_LT(energy_of(few, surface.positions() + 0.1 * direction), energy_of(few, surface.positions()));
+    // P mixes neighbouring degrees, whose a_n are far apart where they are low: short steps.
+    EXPECT_LT(energy_of(few, surface.positions() + 0.01 * direction), energy_of(few, surface.positions()));
   }
 }
 
