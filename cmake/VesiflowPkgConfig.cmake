@@ -14,6 +14,7 @@ set(files_CHOLMOD::CHOLMOD CHOLMOD_LIBRARY)
 set(files_SUNDIALS::arkode SUNDIALS_arkode_LIBRARY)
 set(files_SUNDIALS::kinsol SUNDIALS_kinsol_LIBRARY)
 set(files_HDF5C::hdf5 HDF5C_LIBRARY)
+set(files_XxHash::xxhash XXHASH_LIBRARY)
 
 # vesiflow_link_flags(FILE RESULT): -l of a library, and -L where compilers do not look by themselves.
 function(vesiflow_link_flags file result)

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Builds the reference of the public headers, build/docs/html/index.html. Fails where a public symbol is not documented, or a comment says
 # what Doxygen does not understand.
 # usage: scripts/docs.sh

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 // Orderings of CHOLMOD beside each other for the problems of bench/solvers: nonzeros and operations of the factor,
 // which are counts, and times of analysis, factorisation and solve over those of the default; a table in Markdown.
 //   OMP_NUM_THREADS=1 build/release/bench/orderings [--cells N...] [--factor-up-to N]
