@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Compares two stored runs of a benchmark program and says what became slower.
 
 usage: bench/compare.py BASE.json NEW.json [--threshold 0.1] [--time cpu|real] [--filter REGEX] [--anyway]

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Growth of the cost: time and memory of a step against cells, latitudes and vesicles, with one thread and two, beside what the plan says.
 
 usage: scripts/python.sh bench/growth.py [--quick] [--apps FOLDER] [--docs]

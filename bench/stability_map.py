@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Maps of where runs are stable, noisy, blown up or refused: docs/stability.md.
 
 usage: scripts/python.sh bench/stability_map.py MAP... [--quick] [--jobs N] [--apps build/release/apps]

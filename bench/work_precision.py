@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Run time against error: sweeps of the settings of a scene, each run against a reference of the case's own.
 
 usage: scripts/python.sh bench/work_precision.py CASE... [--quick] [--jobs N] [--apps FOLDER] [--docs]

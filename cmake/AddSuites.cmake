@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Run by ctest, see VesiflowTests.cmake: adds the suites of `program`.
 get_filename_component(name "${program}" NAME_WE)
 if(NOT EXISTS "${program}")

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # FFTW in double precision: target FFTW3::fftw3, and FFTW3::threads with what makes its planner safe for threads. (The package's
 # own configuration file is not usable on Debian 12. Of an FFTW with combined threads say -DFFTW3_THREADS_LIBRARY=.../libfftw3.so.)
 find_path(FFTW3_INCLUDE_DIR fftw3.h)

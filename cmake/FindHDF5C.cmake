@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The serial C library of HDF5: target HDF5C::hdf5. CMake's own FindHDF5 compiles C and so cannot be used by
 # projects, ours and our users', that enable C++ only.
 find_path(HDF5C_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial)

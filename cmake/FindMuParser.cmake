@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # muParser, expressions given as text: target MuParser::muparser.
 find_path(MUPARSER_INCLUDE_DIR muParser.h)
 find_library(MUPARSER_LIBRARY muparser)

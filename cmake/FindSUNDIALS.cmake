@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # SUNDIALS, the parts asked for as components: targets SUNDIALS::arkode, SUNDIALS::kinsol, SUNDIALS::cvode. Each of these libraries brings the
 # serial vectors and dense solvers along. (The package's own configuration file asks for OpenMP in C, which projects that
 # enable C++ only cannot answer.)

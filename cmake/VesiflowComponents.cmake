@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Included by VesiflowConfig.cmake: the targets of the components in Vesiflow_wanted, after what they link to.
 foreach(component IN LISTS Vesiflow_wanted)
   include("${CMAKE_CURRENT_LIST_DIR}/Vesiflow_${component}_needs.cmake")

@@ -1,6 +1,10 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The package behind find_package(Vesiflow COMPONENTS ...): one export set per library, so that a component can
 # be installed without the others and asks for its own dependencies only. (The libraries' own files: vesiflow_library().)
 include(CMakePackageConfigHelpers)
+include(VesiflowVersion)
+include(VesiflowPkgConfig)
 set(find_modules "")
 
 # How a consumer finds what the exported targets link to, by namespace of the target.
@@ -10,6 +14,7 @@ set(package_OpenMP "OpenMP COMPONENTS CXX")
 set(package_CHOLMOD "CHOLMOD")
 set(package_HDF5C "HDF5C")
 set(package_SUNDIALS "SUNDIALS COMPONENTS arkode kinsol")
+set(package_XxHash "XxHash")
 set(package_spdlog "spdlog")
 set(package_fmt "fmt")
 set(package_tomlplusplus "tomlplusplus")
@@ -34,7 +39,10 @@ foreach(library IN LISTS VESIFLOW_LIBRARIES)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/Vesiflow_${library}_needs.cmake
     CONTENT "set(Vesiflow_${library}_needs \"${needs}\")\n")
   set_target_properties(vesiflow_${library} PROPERTIES INSTALL_RPATH "$ORIGIN")  # shared libraries find their siblings
+  vesiflow_describe_build(${library})
+  vesiflow_pkg_config(${library})
 endforeach()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/version.h.in ${PROJECT_BINARY_DIR}/include/vesiflow/version.h @ONLY)
 
 # Of the modules that find these packages, some are ours.
 list(REMOVE_DUPLICATES find_modules)

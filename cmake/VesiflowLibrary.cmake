@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # vesiflow_library(NAME): the target vesiflow_NAME, for users Vesiflow::NAME, from lib<NAME>/include and lib<NAME>/src, with the
 # project's language level, warnings and code generation. Callers add sources and link dependencies.
 include(GNUInstallDirs)
@@ -49,8 +51,17 @@ function(vesiflow_library name)
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     POSITION_INDEPENDENT_CODE ON)
+  if(BUILD_SHARED_LIBS)
+    # What is not marked as in <NAME/export.h> stays inside, except from tests, which link to it.
+    if(NOT VESIFLOW_BUILD_TESTS AND NOT VESIFLOW_BUILD_BENCH AND NOT VESIFLOW_BUILD_FUZZ)
+      set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    endif()
+  else()
+    target_compile_definitions(${target} PUBLIC VESIFLOW_STATIC)
+  endif()
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+           $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>  # vesiflow/version.h
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/common)
   target_link_libraries(${target} PRIVATE ${CMAKE_DL_LIBS})  # of common/short_waits.cpp
@@ -62,6 +73,8 @@ function(vesiflow_library name)
   install(TARGETS ${target} EXPORT Vesiflow_${name}
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow)
+  install(FILES ${PROJECT_BINARY_DIR}/include/vesiflow/version.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vesiflow/vesiflow)
+  install(FILES ${PROJECT_BINARY_DIR}/vesiflow-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
   install(EXPORT Vesiflow_${name} NAMESPACE Vesiflow:: DESTINATION ${VESIFLOW_CONFIG_DIR})
   install(FILES ${PROJECT_BINARY_DIR}/Vesiflow_${name}_needs.cmake DESTINATION ${VESIFLOW_CONFIG_DIR})  # by VesiflowInstall.cmake
 endfunction()

@@ -1,4 +1,7 @@
-# Every choice a builder has, in one place.
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
+# Every choice a builder has, in one place. (And CMake's BUILD_SHARED_LIBS: shared libraries show only what their headers mark as public,
+# unless tests, benchmarks or fuzz targets are built, which link to private parts.)
 set(VESIFLOW_LIBRARIES "vesicle;fluid;coupling;run" CACHE STRING
   "Libraries to build: any of vesicle, fluid, coupling (which needs these two) and run (which needs all three)")
 set(VESIFLOW_ARCH "native" CACHE STRING

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # vesiflow_add_suites(TARGET TIMEOUT seconds): a CTest test PROGRAM.SUITE for each suite of a GoogleTest program. (A test for each
 # case would start two thousand processes.) The program is asked for its suites when ctest runs.
 function(vesiflow_add_suites target)

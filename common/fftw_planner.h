@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // FFTW's planner, of which a process has one. A header for libvesicle and libfluid, which know nothing of each other.
 #pragma once
 

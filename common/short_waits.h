@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 namespace vesiflow {
@@ -14,7 +16,8 @@ namespace vesiflow {
 /// more than 15 would be needed, or a limit of the system (ulimit -u) leaves no room for them and the team itself, nothing is
 /// parked, and standard error says once what helps. LLVM's runtime has a call.
 ///
-/// Compiled into each library that has regions; a program has it once, as all define the same.
-void keep_waits_short();
+/// Compiled into each library that has regions; a program has it once, as all define the same. So it is visible outside of a shared
+/// library too.
+[[gnu::visibility("default")]] void keep_waits_short();
 
 }  // namespace vesiflow

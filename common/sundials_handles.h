@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What SUNDIALS hands out, what it calls and what it says, for whoever is compiled with it.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Checkpoints with damaged bytes. An input is a list of damages to a good checkpoint, so that it stays small and goes on
 // meaning something when the format changes: each is a place and what happens there.
 #include <fuzzer/FuzzedDataProvider.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Checkpoints that are good HDF5 files with wrong contents: data sets and attributes that are missing, of another shape or
 // type, links that lead nowhere, values that are none, another scene. An input is a list of choices. What is in a checkpoint
 // is read off a good one, so that the target follows its format.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Files of surface coefficients: each is refused by the errors that surface_file.h and shapes.h promise, or reads as a finite
 // surface that writes and reads back to the same bits.
 #include <stdexcept>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Files of triangle meshes, OBJ, OFF, PLY or STL by their content: each is refused by the errors that triangle_mesh_file.h,
 // triangle_mesh.h and mesh_fit.h promise, or makes a finite surface.
 #include <stdexcept>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Of each target that includes it, once: what a run on damaged input does must not depend on the machine's threads.
 #pragma once
 

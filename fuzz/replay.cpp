@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Drives a fuzz target without libFuzzer: every file of its corpus is an input, then so many that are made from these at random, the same
 // every time. What breaks a promise ends the program; the last line before says which input did.
 #include <algorithm>

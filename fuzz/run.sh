@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the fuzz targets one after the other and says how many inputs each tried and what it found.
 # usage: fuzz/run.sh [SECONDS] [TARGET...]     each target for so long, 60 s unless told; all targets unless named
 #        fuzz/run.sh --short [TARGET...]       the same few thousand inputs every time, in less than a minute

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Scene files, with overrides in lines "--set key=value": each is refused by a SceneError that says why, or makes a
 // scene that can be written, read back as the same scene, and planned.
 

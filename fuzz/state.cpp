@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // States to restore a simulation to, with lists of other lengths and awkward numbers: what a checkpoint with good checksums
 // could hold. Each is refused by what restore() promises, or a state from which the next step is made or stopped with a reason.
 #include <fuzzer/FuzzedDataProvider.h>

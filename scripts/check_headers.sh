@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Compiles every public header alone, and included twice, seeing only the libraries its own may use.
 # usage: scripts/check_headers.sh
 set -euo pipefail

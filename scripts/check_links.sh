@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Checks that every relative link of the documents leads somewhere: the file exists, and so does the heading that an anchor names.
 # Where sources and scripts name a page or a section of docs/, it exists too.
 # usage: scripts/check_links.sh

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs a few steps of the coupled method under valgrind: shapes read from files, every kind of output, and a restart.
 # usage: scripts/check_memory.sh      (builds preset valgrind)
 set -euo pipefail

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Looks for data races with the thread sanitizer: short runs of the coupled method, and the suites of libfluid that set the
 # number of threads.
 # usage: scripts/check_threads.sh [--runs-only]      (builds preset tsan)

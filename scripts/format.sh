@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Formats every C++ file of the tree, or with --check only says which ones differ.
 # usage: scripts/format.sh [--check]
 set -euo pipefail

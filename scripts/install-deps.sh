@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs what building and running the programs and plotting their results need; silent when nothing is missing.
 # usage: scripts/install-deps.sh [--test | --dev]
 #   --test   also what the tests and benchmarks need, and SUNDIALS, whose Debian package brings PETSc, MPI and Fortran along
-#   --dev    also the tools of the format and script checks, the fuzz targets and the sanitizers
+#   --dev    also the tools of the format, script and documentation checks, the fuzz targets and the sanitizers
 # Knows Debian 12 and later; elsewhere it only checks, and names what is missing.
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
@@ -10,17 +12,17 @@ cd "$(dirname "$0")/.."
 
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libfftw3-dev libsuitesparse-dev libopenblas-dev libhdf5-dev
+  libeigen3-dev libfftw3-dev libsuitesparse-dev libopenblas-dev libhdf5-dev libxxhash-dev
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev libmuparser-dev
   python3 python3-numpy python3-matplotlib python3-h5py
 )
 commands=(g++ cmake ninja)
-headers=(Eigen/Core fftw3.h cholmod.h hdf5.h toml++/toml.h CLI/CLI.hpp spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h)
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
+headers=(Eigen/Core fftw3.h cholmod.h hdf5.h xxhash.h toml++/toml.h CLI/CLI.hpp spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h)
+test_packages=(pkgconf libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
-dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind)
-dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind)
+dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr doxygen)
+dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr doxygen)
 
 case "${1:-}" in
   --test | --dev)

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Sourced by the scripts, before they change the folder: what they have in common.
 script=$(realpath "$0")
 
 # The comment at the top of the script, which says what it does.
 usage() {
-  sed -n '2,/^[^#]/s/^#\( \|$\)//p' "$script"
+  sed -n '2,/^[^#]/{/^# SPDX-/d; s/^#\( \|$\)//p}' "$script"
 }
 
 # no_more_options ARGUMENT...: --help helps, and anything else is refused. For what a script has not understood by then.

@@ -1,13 +1,20 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The checks that take too long for every change, one after the other; says at the end which of them failed.
 # usage: scripts/nightly.sh [CHECK...]      (all checks unless named; a few hours on two cores)
 #   x86-64-v2, x86-64-v3, x86-64-v4, native   everything, benchmarks too, compiled for these processors with warnings as errors; the
 #                tests are run where this machine can
+#   compilers    libraries and apps by g++ and clang++, as C++20 and C++23, shared and static, each pair of these at least once; programs
+#                outside the tree by the same compiler against what is installed, and with the tree as a part of their project
+#   bare         libraries and apps without SUNDIALS, CHOLMOD and HDF5
 #   sanitizers   all tests with the address and undefined-behaviour sanitizers
 #   threads      scripts/check_threads.sh
 #   memory       scripts/check_memory.sh
 #   fuzz         fuzz/run.sh, ten minutes each target
 #   tidy         clang-tidy on every source
+#   coverage     which share of the lines of the libraries and apps the tests reach, by file in build/coverage/coverage.txt
+#   docs         scripts/docs.sh
 #   kills        validation/kills.py: 200 runs killed at any moment go on to the same bits
 #   faults       validation/faults.py: disks, permissions, descriptors and memory that run out
 #   hostile      validation/hostile_starts.py: starts that no one should choose
@@ -15,7 +22,7 @@ set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
-checks=(x86-64-v2 x86-64-v3 x86-64-v4 native sanitizers threads memory fuzz tidy kills faults hostile)
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native compilers bare sanitizers threads memory fuzz tidy docs coverage kills faults hostile)
 for check in "$@"; do
   [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
 done
@@ -38,10 +45,36 @@ build_for() {
     -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BUILD_BENCH=ON
 }
 
+# build_with COMPILER STANDARD SHARED: and consumes what is installed.
+build_with() {
+  local name=nightly-$1-$2-shared-$3
+  build "$name" -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" -DBUILD_SHARED_LIBS="$3" \
+    -DVESIFLOW_WERROR=ON -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=OFF
+  CXX=$1 tests/install_consumer/check.sh "build/$name" -DCMAKE_CXX_STANDARD="$2" -DBUILD_SHARED_LIBS="$3"
+}
+
+# Nothing that is left out is looked for either.
+build_bare() {
+  local options=() package
+  for package in SUNDIALS CHOLMOD HDF5; do options+=("-DVESIFLOW_WITH_$package=OFF"); done
+  for package in SUNDIALS CHOLMOD HDF5C; do options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
+  build nightly-bare -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_WERROR=ON -DVESIFLOW_BUILD_TESTS=OFF "${options[@]}"
+}
+
 # validate SCRIPT OPTION...: one of validation/, with the apps for this machine.
 validate() {
   build_for native
   scripts/python.sh "validation/$1.py" --apps build/nightly-native/apps "${@:2}"
+}
+
+# All tests with counters, which threads share and tests that run side by side add to.
+cover() {
+  build coverage --preset coverage
+  find build/coverage -name '*.gcda' -delete
+  run_tests coverage --test-dir build/coverage
+  logged build/coverage/gcovr.log "Counting lines" gcovr --root . --object-directory build/coverage \
+    --filter 'lib[a-z]+/' --filter common/ --filter apps/ --print-summary --txt build/coverage/coverage.txt
+  grep '^lines:' build/coverage/gcovr.log
 }
 
 perform() {
@@ -54,6 +87,14 @@ perform() {
         run_tests "nightly-$1" --test-dir "build/nightly-$1"
       fi
       ;;
+    compilers)
+      build_with g++ 20 ON
+      build_with g++ 23 OFF
+      build_with clang++ 20 OFF
+      build_with clang++ 23 ON
+      tests/install_consumer/subproject.sh
+      ;;
+    bare) build_bare ;;
     sanitizers)
       build asan-ubsan --preset asan-ubsan
       run_tests asan-ubsan --preset asan-ubsan
@@ -62,6 +103,8 @@ perform() {
     memory) scripts/check_memory.sh ;;
     fuzz) fuzz/run.sh 600 ;;
     tidy) build tidy --preset tidy ;;
+    coverage) cover ;;
+    docs) scripts/docs.sh ;;
     kills | faults) validate "$1" ;;
     hostile) validate hostile_starts --jobs "$(nproc)" ;;
   esac

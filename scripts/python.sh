@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs a python that has numpy, matplotlib and h5py: the distribution's, which another python3 in PATH may hide.
 # usage: scripts/python.sh SCRIPT [ARGUMENT...], or any other arguments of python
 set -euo pipefail

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # From a fresh clone to pictures of a tank-treading vesicle, in a few minutes.
 # usage: scripts/quickstart.sh [--threads N]      (default: all cores, but at most 2: the case is small)
 set -euo pipefail

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Compiles everything with warnings as errors, runs every test, then the checks that are not tests. In build/test; what takes longer is
 # in scripts/nightly.sh.
 # usage: scripts/test.sh

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes the pictures of docs/fluid.md from scratch: runs programs of a build, and draws what they write.
 
 usage: draw_fluid_tour.py [BUILD] [OUT]        BUILD: build/release; OUT: docs/images/fluid. Takes five minutes.

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Flow in rectangular ducts: a cross-section with its error against the series, and the convergence of several runs.
 
     duct_flow --cells 8 --refine 4 --out out/duct/periodic

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Least bending energy against reduced volume, with the shapes, from the folder of the app equilibrium_shape.
 
     equilibrium_shape --branch prolate --reduced-volume 0.6:1:0.02 --out out/equilibrium

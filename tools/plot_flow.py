@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """A picture of the flow that the app flow_fields has written: speed, streamlines, pressure, and the ball.
 
 usage: plot_flow.py FOLDER [--out FILE]        FILE: FOLDER/flow.png

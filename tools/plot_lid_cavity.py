@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Centreline velocities of the lid-driven cube beside published points, and the flow in its mid-plane.
 
     lid_cavity --cells 32 48 64 --out out/lid_cavity

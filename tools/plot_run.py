@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a run: history.png and membrane.png from the files that docs/results.md describes.
 
 Draws what the folder has, of runs under way or stopped too. A run without snapshots gives the history alone; without fluid snapshots

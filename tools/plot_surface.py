@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a surface, one per quantity, from the tables that the app surface_fields writes.
 
 usage: plot_surface.py FOLDER [--out FOLDER] [--quantity NAME ...]

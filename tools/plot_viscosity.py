@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Temporal error against time spent of the treatments of a field of viscosity, from bench/viscosity_treatments.
 
     plot_viscosity.py bench/results/viscosity_treatments.json docs/images/fluid/viscosity_treatments.png

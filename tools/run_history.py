@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """history.png: what diagnostics.csv says about a run, against time."""
 
 import dataclasses

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """membrane.png: the membranes of a run in a few moments, coloured by their tension, and the flow around them."""
 
 import matplotlib.pyplot as plt

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What theory says about a run, where the answer is known: values that pictures show beside what was computed."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What tools read of a run: the files that docs/results.md describes, in one place.
 
 Lengths are in effective radii, times in 1/shear rate. What a run has not written raises MissingData, whose message says why.

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Whether two builds compute the same: final states of all scenes, bit for bit.
 
 usage: scripts/python.sh validation/bits.py --apps FOLDER [--before FOLDER] [--steps N] [--scenes NAME ...] [--threads N]

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Takes away what a run needs: disk, permission, file descriptors, memory; and looks at what it says and leaves.
 
 usage: scripts/python.sh validation/faults.py [--apps FOLDER] [--short] [--store]

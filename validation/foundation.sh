@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs the cases of docs/studies/foundation.md (about five minutes on two cores) and writes their table to
 # validation/foundation.md.
 # usage: validation/foundation.sh [APPS_DIR]      (default build/release/apps; results in out/validation)

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The table of validation/foundation.sh: what the runs found beside what is expected, and with what tolerance."""
 import json
 import sys

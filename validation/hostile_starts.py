@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Starts that no one should choose: each gives a right answer, a refusal or a warning. The table of
 docs/studies/hostile_starts.md.
 

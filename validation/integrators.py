@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the cases of validation/integrators.md and validation/tumbling.md one after the other, each with one thread.
 
 usage: scripts/python.sh validation/integrators.py SET... [--program build/release/bench/integrators]

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables of validation/integrators.md and validation/tumbling.md from the stored results, and the picture of the latter.
 
 usage: scripts/python.sh validation/integrators_table.py [--picture docs/images/validation/tumbling.png]

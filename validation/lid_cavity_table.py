@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The tables of validation/lid_cavity.md, from the JSON that lid_cavity --out writes.
 
 usage: lid_cavity_table.py LID_CAVITY_JSON

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Vesicles of reduced volume 0.7 with and without redistribution of their markers, and of 0.8 where nothing needs it (about
 # fifteen minutes on one core); writes the table to validation/redistribution.md.
 # usage: validation/redistribution.sh [APPS_DIR]      (default build/release/apps; results in out/redistribution)

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The table of validation/redistribution.sh: how long each run lasted and how its mesh and its membrane fared."""
 import csv
 import json

@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs the validation cases: scenes, numbers, figures.
 
 usage: scripts/python.sh validation/run.py CASE... [--coarse | --paper] [--jobs N]

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Runs duct_flow and lid_cavity on the grids of docs/studies/foundation.md and writes their tables to validation/duct_flow.md and
 # validation/lid_cavity.md, the numbers of the cavity to validation/lid_cavity.json, and the pictures in docs/images/fluid.
 # The ducts take a minute; the cavity takes most of an hour on one core, nearly all of it the grid of 96^3.

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # How much the width of the delta function, which acts as a thickness of the membrane, moves the inclination and the frequency
 # of a tank-treading vesicle (reduced volume 0.9, Ca 2.5, [-6,6]^3), for each delta function and spacing of the grid: about
 # four minutes on one core. Runs that are there are not repeated. Only the half y > 0 of the box is computed, and vesicles

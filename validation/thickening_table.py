@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The tables of validation/thickening.sh: inclination and frequency by delta function and spacing, and extrapolated to h = 0."""
 import csv
 import json

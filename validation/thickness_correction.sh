@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # What coupling.thickness_correction changes, by spacing of the grid in [-6,6]^3: relaxation rates of a sphere's shape modes at ratio 1
 # and 5, tank-treading (reduced volume 0.9) at Re = 1e-3, at Re = 1 and at ratio 5, tumbling at ratio 20 (about 25 minutes on
 # one core). Runs that are there are not repeated. Only the half y > 0 of the box is computed. Prints the second part of

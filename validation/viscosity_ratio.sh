@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # How the time step and the treatment of the viscous term move a vesicle more viscous than the fluid around it: tank-treading at
 # ratio 5 to t = 4, and the time at which one of ratio 20 lies along the flow, in a small box (about ten minutes on one
 # core). Prints the second table of validation/viscosity_ratio.md.

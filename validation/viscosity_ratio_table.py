@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The table of validation/viscosity_ratio.sh: angle at t = 4 at ratio 5, time of zero angle at ratio 20, by treatment and step."""
 import csv
 import json

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The flow around a viscous ball in shear, by libfluid alone: velocity, pressure and viscosity in a plane as a table, and
 // what the solvers report. tools/plot_flow.py draws it.
 #include <fmt/format.h>

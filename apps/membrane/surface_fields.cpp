@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Every quantity of a surface at its markers, as a table for plotting: a look at a shape before it is simulated.
 #include <fmt/format.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Vesicles in pressure-driven flow, in a rectangular duct or between two plates: bullets, parachutes, croissants, slippers.
 #include "run/run.h"
 #include "scene_app.h"

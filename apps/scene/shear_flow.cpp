@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Vesicles in shear flow u = (rate z, 0, 0): tank-treading, tumbling, a sphere that turns.
 #include "run/run.h"
 #include "scene_app.h"

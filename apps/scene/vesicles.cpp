@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Vesicles in any flow that a scene can name.
 #include "run/run.h"
 #include "scene_app.h"

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.h"
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "completion.h"
 #include "passive_waiting.h"
 #include "streams.h"
+#include "vesiflow/version.h"
 
 namespace {
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "steady_options.h"
 
 void declare(CommandLine& command_line, SteadyArguments& arguments, const std::string& tolerance) {

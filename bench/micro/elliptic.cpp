@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The "fft" solver of elliptic problems against FFTW's three-dimensional real-to-real transforms and against the memory
 // bandwidth, in one run.
 //   build/release/bench/elliptic [--cells X Y Z]... [--repetitions R] [--planning estimate|measure|patient] [--json]

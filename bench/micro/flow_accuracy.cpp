@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Errors in space of the time step in the forced flow of the tests, against its closed form: a table, or JSON.
 //   OMP_WAIT_POLICY=passive build/release/bench/flow_accuracy [--cells N...] [--json]
 #include <cmath>

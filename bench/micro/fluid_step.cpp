@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A whole step of NavierStokes by phase, as a multiple of the four plain FFTW transform pairs (pressure and three velocity
 // components) that it replaces, measured in turn in one run with one thread.
 //   OMP_NUM_THREADS=1 build/release/bench/fluid_step [--cells N...] [--repetitions R] [--only CASE...]

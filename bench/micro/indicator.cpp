@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The indicator of a membrane against the exact one, and what it costs.
 //   OMP_WAIT_POLICY=passive build/release/bench/indicator [--cells N...]
 #include <algorithm>

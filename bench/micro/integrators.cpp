@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One run of a scene in memory, for studies of time integration: what it costs, how well it keeps area and volume, and its course.
 //   OMP_NUM_THREADS=1 build/release/bench/integrators SCENE [--set key=value]... [--every T] [--steps N]
 // Prints one JSON object. CPU seconds are those of the steps alone, over all threads. validation/integrators.py makes the tables of

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The geometry of a surface and the parts of a membrane's step. Transforms alone: bench/sht.
 //   OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive build/release/bench/membrane
 #include <benchmark/benchmark.h>

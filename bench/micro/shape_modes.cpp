@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Relaxation rates of small shape modes of a nearly spherical vesicle against theory, for viscosity ratios and resolutions.
 //   OMP_WAIT_POLICY=passive build/release/bench/shape_modes [--cells N...] [--ratio L...] [--half B]
 // "in sphere": theory with a concentric spherical wall of radius B = 3 or 6. Tabulated in validation/viscosity_ratio.md.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Spherical-harmonic transforms of three fields: time per scalar field against FFTW's own transforms of the same data
 // and against the rate of multiply-adds of this core.
 //   build/release/bench/sht [--latitudes N...] [--repetitions R] [--json]

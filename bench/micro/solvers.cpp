@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The solvers of elliptic problems beside each other: the pressure, one velocity solve of the laplacian form, and the stress
 // form with a ball of 20 times the viscosity, for random right-hand sides; a table in Markdown.
 //   OMP_NUM_THREADS=1 build/release/bench/solvers [--cells N...]

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One coupled step of a vesicle in shear flow by phase, as a multiple of the four plain FFTW transform pairs (pressure and three
 // velocity components) that it replaces, all measured in turn in one run, with one and with two threads.
 //   OMP_WAIT_POLICY=passive build/release/bench/step [--cells N...] [--ratio L...] [--markers NAME...] [--repetitions R] [--json]

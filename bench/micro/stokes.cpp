@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // One Stokes solve from zero in a cube with walls: a shear flow around a sphere with forces on it and another viscosity
 // inside, across an interface two cells thick. Iterations are a counter; ratio 1 is a number, not a field.
 //   OMP_NUM_THREADS=1 build/release/bench/stokes

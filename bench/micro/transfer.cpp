@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Spreading to and interpolating from the grid by each delta function: 8192 markers on 128^3, one thread.
 //   build/release/bench/transfer
 // The counter ns_per_marker is what a membrane pays per call. `weights` is MarkerTransfer::update. "periodic" is the same

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The velocity problem of a step whose viscosity is implicit, solved by the solvers that can: iterations, seconds per
 // step, factors. A blob of another viscosity moves by a fraction of a cell per step.
 //   OMP_NUM_THREADS=1 build/release/bench/viscosity_solvers [--cells N...] [--ratio R...] [--reynolds Re...]

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Temporal error against time spent, of the treatments of a field of viscosity in NavierStokes.
 //   OMP_NUM_THREADS=1 build/release/bench/viscosity_treatments [--cells N] [--ratio R...] [--reynolds Re...]
 //       [--treatment explicit extrapolated implicit loose stokes stokes_loose] [--steps 24 48...] [--reference-steps M]

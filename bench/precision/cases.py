@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The cases: what is computed, the sweeps around good settings, and the reference.
 
 Boxes are halves, or eighths, by mirror symmetry, and 8 wide rather than the paper's 12: what walls change is the same in all runs of a

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Errors of runs against a reference: position of the membrane whatever its mesh, and courses of numbers.
 
 A state is what is kept of a run: the membranes by time, as markers (latitudes, longitudes, 3), and the rows of its diagnostics. States with

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """From runs to errors, the front, and the settings for each level of error."""
 
 from harness import outputs, runs

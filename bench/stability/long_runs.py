@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Long runs: whether noise grows, area and volume drift, and a periodic motion stays so."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The maps: which runs, where theory has its limits, and what the documents recommend."""
 
 import dataclasses
@@ -242,4 +244,11 @@ STARTS = Map(
     Axis("reduced volume", tuple(MIDDLE_AXIS), (0.85,)), Axis("R/h", (5.33, 8, 10.67, 16, 21.33), (5.33, 8)), 1, _start_keys, lambda panel, volume, cells: None,
     lambda panel, volume, cells, convection: volume >= 0.9 or not panel.endswith("= 10"), "docs/stability.md, Recommended region", quick_panels=("oblate, Ca = 2.5",), scene="bench/stability/start.toml")
 
-ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS)}
+# Stiffer ones, where bending would make another shape within a step: their first steps are taken in parts.
+STIFF_STARTS = Map(
+    "stiff_starts", "stiff starts across the flow", ("prolate", "oblate", "ellipsoid"), Axis("reduced volume", (0.7, 0.8, 0.9, 0.95), (0.7, 0.9)),
+    Axis("Ca", (0.01, 0.02, 0.05, 0.1, 0.2, 0.5), (0.01, 0.1)), 1,
+    lambda shape, volume, ca: _start_keys(f"{shape}, Ca = {ca}", volume, 5.33), lambda shape, volume, ca: None,
+    lambda shape, volume, ca, convection: 1 / 24 <= ca / 2, "docs/stability.md, Recommended region", scene="bench/stability/start.toml")
+
+ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS, STIFF_STARTS)}

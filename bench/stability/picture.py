@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """A map as a picture: a square for each run, coloured by its verdict."""
 
 import math

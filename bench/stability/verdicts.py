@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What became of a run, measured from its diagnostics (docs/stability.md gives the reasons for the numbers)."""
 
 import math
@@ -51,7 +53,7 @@ def measures(folder):
     angle = outputs.unwrapped(course["inclination_angle_deg"])
     largest = lambda name: float(np.nanmax(np.abs(course[name][last])))  # noqa: E731
     return {
-        "completed": summary["status"] == "completed", "time": summary["time"], "steps": summary["steps"],
+        "completed": summary["status"] == "completed", "time": summary["time"], "steps": summary["steps"], "start_parts": summary["start_parts"],
         "reason": cause(summary["stop_reason"]),
         "divergence": largest("surface_divergence_max"), "local_area": largest("max_local_area_error"),
         "growth": growth_rate(time[half], course["surface_divergence_max"][half]),

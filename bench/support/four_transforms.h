@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The transforms of the four fast solves of a step of the fluid, as FFTW alone does them: what steps are measured against.
 #pragma once
 

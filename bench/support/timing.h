@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Times of a call, and what is made of many of them: cores may be shared with other programs, so CPU time of the calling
 // thread stands beside wall time, and times are compared as ratios of those in the same repetition.
 #pragma once

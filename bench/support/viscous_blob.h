@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A body of another viscosity that moves as told, with forces on its surface: the part of a vesicle that the fluid sees.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What solvers are measured against: FFTW's three-dimensional real-to-real transforms, and the memory bandwidth.
 #pragma once
 

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # bad_input.sh SHEAR_FLOW SCENES: every kind of bad input gives one clear error and the documented exit code, and
 # leaves what is in the results folder as it was.
 set -u

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # command_line.sh APP...: every app speaks with one voice: options that all have, help, version, one form of errors, exit codes, and
 # the completion that it prints works in bash.
 set -u

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # duct_flow.sh DUCT_FLOW: what the program prints, writes and refuses.
 set -u
 program=$1

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # flow_fields.sh FLOW_FIELDS: its tables hold the flow that is known for ratio 1 and the symmetries of the others, bad input
 # gives one clear error and the documented exit code.
 set -u

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # geometry_accuracy.sh GEOMETRY_ACCURACY: its JSON parses and has what it promises, files of expressions and of
 # coefficients give the errors of the same built-in surface, bad input gives one clear error and exit code 2.
 set -u

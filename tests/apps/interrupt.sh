@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # interrupt.sh SHEAR_FLOW SCENES: a run that is asked to stop leaves a checkpoint and says the command from which another goes on
 # to the very bits of an uninterrupted run; a run that is killed outright leaves readable files.
 set -eu

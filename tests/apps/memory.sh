@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # memory.sh VESICLES SCENES: the memory that the plan speaks of is the peak resident size of the run to 10 %.
 set -eu
 vesicles=$1

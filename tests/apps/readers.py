@@ -1,4 +1,6 @@
 #!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """readers.py VESICLES: while a run writes every file in every step, all of them can be read at any moment, as docs/results.md has them.
 
 Reads again and again, then ends the run and reads once more, with the locks that h5py takes. What a list or a table has once said it says ever after.

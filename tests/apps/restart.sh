@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # restart.sh VESICLES: folders stand for their scene and their checkpoint, a restart goes on in the folder of its checkpoint, a run
 # that is complete stays as it is, and the shell may take overrides apart.
 set -u

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Every scene of the folder can be read and says what it would compute, without a warning; what is shown first takes the steps that
 # the documents recommend.
 # usage: scenes.sh APP FOLDER

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # streams.sh SHEAR_FLOW SCENES [DUCT_FLOW]: what is said to people may be lost, a run is not: standard streams that are full, closed,
 # or that nobody reads. What was asked for and cannot be written is an error.
 set -eu

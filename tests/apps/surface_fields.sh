@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # surface_fields.sh SURFACE_FIELDS: its tables have the promised columns and the right numbers, it reads coefficients and
 # meshes, bad input gives one clear error and the documented exit code.
 set -u

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A forced flow in closed form, with constant or variable viscosity, and the error of a computed one.
 #pragma once
 

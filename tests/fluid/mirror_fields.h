@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The whole box that a grid with mirrors stands for, and fields and flows that are symmetric in it.
 #pragma once
 

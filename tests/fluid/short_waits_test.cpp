@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Waiting threads sleep without the environment saying so.
 #include "short_waits.h"
 

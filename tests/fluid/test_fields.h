@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Fields for the tests of libfluid: random numbers with fixed seeds, sums, and differences.
 #pragma once
 

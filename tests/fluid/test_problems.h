@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Elliptic problems of every kind, and vectors of unknowns for them.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What docs/fluid.md shows: its programs run, and what it says of wrong input is what comes.
 #include <gtest/gtest.h>
 

@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs a build to a scratch prefix and builds programs outside the tree against it, without -march=native.
-# usage: tests/install_consumer/check.sh BUILD_DIR
+# usage: tests/install_consumer/check.sh BUILD_DIR [OPTION...]      (options of CMake for these programs; CXX: their compiler)
 set -euo pipefail
 . "$(dirname "$0")/../../scripts/lib.sh"
 [[ ${1:-} != -* ]] || no_more_options "$1"
-build=$(realpath "${1:?usage: check.sh BUILD_DIR}")
+build=$(realpath "${1:?usage: check.sh BUILD_DIR [OPTION...]}")
+options=("${@:2}")
 here=$(realpath "$(dirname "$0")")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -22,7 +25,7 @@ quietly() {
 # configure SOURCE NAME OPTION...: against what is installed in $prefix.
 configure() {
   quietly cmake -S "$1" -B "$scratch/$2" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS="-Wall -Wextra" \
-    -DCMAKE_PREFIX_PATH="$prefix" "${@:3}"
+    -DCMAKE_PREFIX_PATH="$prefix" "${options[@]}" "${@:3}"
 }
 
 # consume COMPONENT PROGRAM OPTION...: whoever asks for a disabled package fails.
@@ -31,6 +34,16 @@ consume() {
   quietly cmake --build "$scratch/$1"
   quietly "$scratch/$1/$2" "$scratch/$1/out"
   echo "install consumer: $1 built and ran"
+}
+
+# with_pkg_config COMPONENT PROGRAM: compiled by hand, with what pkg-config says alone.
+with_pkg_config() {
+  local flags static=(--static)
+  [[ ! -e $libraries/libvesiflow_$1.so ]] || static=()
+  read -ra flags < <(PKG_CONFIG_PATH=$libraries/pkgconfig pkg-config --cflags --libs "${static[@]}" "vesiflow-$1")
+  quietly "${CXX:-g++}" -std=c++20 "$here/$1/main.cpp" -o "$scratch/$2" "${flags[@]}" "-Wl,-rpath,$libraries"
+  quietly "$scratch/$2" "$scratch/$1/out_of_pkg_config"
+  echo "install consumer: $1 built with pkg-config and ran"
 }
 
 # refused MESSAGE SOURCE OPTION...: does not configure, and says why.
@@ -45,18 +58,65 @@ refused() {
 
 quietly cmake --install "$build" --prefix "$prefix"
 no_optional=()
-for package in HDF5 HDF5C SUNDIALS spdlog fmt; do
+for package in HDF5 HDF5C SUNDIALS XxHash spdlog fmt; do
   no_optional+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 consume vesicle curvatures "${no_optional[@]}"
 consume fluid channel "${no_optional[@]}" -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON
 consume coupling tank_treading -DCMAKE_DISABLE_FIND_PACKAGE_spdlog=ON -DCMAKE_DISABLE_FIND_PACKAGE_HDF5C=ON \
-  -DCMAKE_DISABLE_FIND_PACKAGE_tomlplusplus=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_tomlplusplus=ON -DCMAKE_DISABLE_FIND_PACKAGE_XxHash=ON
 if [[ $(wc -l <"$here/coupling/main.cpp") -ge 50 ]]; then
   echo "tests/install_consumer/coupling/main.cpp: a program without a configuration file takes less than 50 lines" >&2
   exit 1
 fi
 consume run extension
+
+libraries=$(dirname "$(find "$prefix" -name pkgconfig)")
+with_pkg_config vesicle curvatures
+with_pkg_config fluid channel
+with_pkg_config coupling tank_treading
+with_pkg_config run extension
+
+# The installed header and the libraries agree on what they are. Programs of one library alone have its functions only.
+cat >"$scratch/version.cpp" <<'EOF'
+#include <cstdio>
+#include "coupling/version.h"
+#include "fluid/version.h"
+#include "run/version.h"
+#include "vesicle/version.h"
+#include "vesiflow/version.h"
+
+int main() {
+  using namespace vesiflow;
+  for (const auto version : {vesicle::version(), fluid::version(), coupling::version(), run::version()})
+    if (version != VESIFLOW_VERSION) return 1;
+  std::puts(fluid::built_with().data());
+  return (fluid::built_with().find("CHOLMOD") != std::string_view::npos) == VESIFLOW_HAVE_CHOLMOD &&
+                 (coupling::built_with().find("SUNDIALS") != std::string_view::npos) == VESIFLOW_HAVE_SUNDIALS &&
+                 (run::built_with().find("HDF5") != std::string_view::npos) == VESIFLOW_HAVE_HDF5
+             ? 0
+             : 2;
+}
+EOF
+mkdir "$scratch/version"
+cat >"$scratch/version/CMakeLists.txt" <<'EOF'
+cmake_minimum_required(VERSION 3.25)
+project(version LANGUAGES CXX)
+find_package(Vesiflow REQUIRED)
+add_executable(version ../version.cpp)
+target_link_libraries(version PRIVATE Vesiflow::run)
+EOF
+configure "$scratch/version" version_build
+quietly cmake --build "$scratch/version_build"
+quietly "$scratch/version_build/version"
+echo "install consumer: versions of headers and libraries agree"
+
+# A shared library that hides what is not marked shows no private class.
+if [[ -e $libraries/libvesiflow_fluid.so ]] && ! grep -qE 'VESIFLOW_BUILD_(TESTS|BENCH|FUZZ):[A-Z]*=(ON|AUTO)' "$build/CMakeCache.txt" &&
+  nm -DC --defined-only "$libraries/libvesiflow_fluid.so" | grep 'vesiflow::fluid::FftSolver'; then
+  echo "libvesiflow_fluid.so shows private symbols" >&2
+  exit 1
+fi
 
 # A component that is not there is refused by name.
 sed 's/COMPONENTS vesicle/COMPONENTS membrane/' "$here/vesicle/CMakeLists.txt" >"$scratch/CMakeLists.txt"

@@ -1,4 +1,6 @@
 #!/usr/bin/env bash
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 # The check of dependencies finds what it is meant to find: each case breaks a copy of the sources in one way.
 # usage: tests/scripts/check_dependencies.sh
 set -euo pipefail

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Starts and flows that a user should not choose: right, refused, or warned of in the plan, but never silently wrong.
 // validation/hostile_starts.py has those that take longer.
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Several vesicles, each with its own properties, and forces from outside.
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Halves and quarters of symmetric boxes (domain.mirror) against the whole.
 #include <gtest/gtest.h>
 

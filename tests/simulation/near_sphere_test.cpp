@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Vesicles that are nearly or exactly spheres: their area cannot be kept by moving along their curvature, which does not vary.
 #include <gtest/gtest.h>
 

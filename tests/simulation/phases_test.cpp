@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is switched off is never entered and allocates nothing.
 #include "coupling/phases.h"
 

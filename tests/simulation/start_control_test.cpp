@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Starts far from rest, whose first steps are taken in parts.
 #include "motion/start_control.h"
 

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <string>
 
 #include "coupling/errors.h"
 #include "coupling/simulation.h"
+#include "motion/sphere_response.h"
 #include "support/shape_modes.h"
 #include "support/small_scene.h"
 #include "vesicle/shapes.h"
@@ -27,14 +27,47 @@ vesicle::Membrane sphere(double capillary_number, double sigma0) {
 
 constexpr DeltaKernel kernel = DeltaKernel::smoothed_four_point;
 
-// c h along the membrane, but for what the lattice makes of c, and the rest of second order.
-TEST(ThicknessCorrection, IsOfFirstOrderAlongAndOfSecondOtherwise) {
+// What the velocity along a membrane lacks is c h/mu to leading order: half of the mean over orientations of the sheet
+// of the mean distance of two points that are chosen across it by the kernel (here by a midpoint rule). Lattices
+// parallel to the sheet have a smaller c, by up to 0.07, which the mean over all positions sees as 0.03.
+TEST(ThicknessCorrection, LacksTheKinkToFirstOrderAndIsOtherwiseOfSecond) {
   const vesicle::Membrane membrane = sphere(1.0, 1.0);
-  const ThicknessCorrection coarse(membrane, kernel, 0.04, 1.0), fine(membrane, kernel, 0.02, 1.0);
+  for (const DeltaKernel any : delta_kernels) {
+    const ThicknessCorrection coarse(membrane, any, 0.04, 1.0), fine(membrane, any, 0.02, 1.0);
+    for (int n = 1; n < 4; ++n) {
+      const double limit = 2.0 * fine.along(n) / 0.02 - coarse.along(n) / 0.04;
+      EXPECT_LT(limit, thickening(any)) << name(any);
+      EXPECT_GT(limit, thickening(any) - 0.03) << name(any);
+      EXPECT_NEAR(coarse.smoothing(n) / fine.smoothing(n), 4.0, 0.4) << name(any);
+    }
+  }
+}
+
+// A velocity per force per area is a length over a viscosity.
+TEST(ThicknessCorrection, ScalesWithTheRadius) {
+  const auto of_radius = [](double radius) {
+    const vesicle::SphereGrid grid(16);
+    const vesicle::Membrane membrane(radius * vesicle::sphere(grid, {}), 16, {});
+    return ThicknessCorrection(membrane, kernel, 0.2 * radius, 1.0);
+  };
+  const ThicknessCorrection one = of_radius(1.0), two = of_radius(2.0);
+  ASSERT_EQ(one.degrees(), two.degrees());
+  for (int n = 0; n < one.degrees(); ++n) {
+    EXPECT_NEAR(two.smoothing(n), 2.0 * one.smoothing(n), 1e-12);
+    EXPECT_NEAR(two.along(n), 2.0 * one.along(n), 1e-12);
+  }
+}
+
+// Where little is lost nothing is faded out: what is added along the sphere is all that the immersed answer mixes e+ and
+// e- by (motion/sphere_response.h), which the exact one does not.
+TEST(ThicknessCorrection, TakesAwayWhatTheImmersedAnswerMixes) {
+  const vesicle::Membrane membrane = sphere(1.0, 1.0);
+  constexpr double h = 0.05;
+  const ThicknessCorrection correction(membrane, kernel, h, 1.0);
+  const SphereResponse response(kernel, 1.0, h);
   for (int n = 1; n < 4; ++n) {
-    EXPECT_NEAR(fine.along(n) / (0.02 * thickening(kernel)), 1.0, 0.2);
-    EXPECT_NEAR(coarse.along(n) / fine.along(n), 2.0, 0.2);
-    EXPECT_NEAR(coarse.smoothing(n) / fine.smoothing(n), 4.0, 0.4);
+    const double mixed = response.immersed(n).mixed, t = n / (2.0 * n + 1.0);
+    EXPECT_NEAR(mixed + correction.along(n) * std::sqrt(t * (1.0 - t)), 0.0, 1e-3 * std::abs(mixed)) << n;
   }
 }
 
@@ -84,16 +117,18 @@ TEST(ThicknessCorrection, SharpensTheComponentsOfTheWholeForce) {
   EXPECT_LT((velocity - expected).abs().maxCoeff(), 1e-12);
 }
 
-// Rates of a coarse sphere in [-3,3]^3, 18 to 28 % low as they are, come within 5 % of theory in a sphere. Walls of a cube slow
-// n = 2 less: its rate for h -> 0 is 1.066 of that, validation/viscosity_ratio.md.
+// Rates of a coarse sphere in [-3,3]^3, 18 to 28 % low as they are, come within 5 % of theory in a sphere of this
+// radius. The walls of a cube are farther away and slow it less: n = 2 lies between that theory and the one without
+// walls, n = 3 and 4 are the same within 2 %.
 TEST(ThicknessCorrection, BringsTheRatesOfACoarseSphereNearTheory) {
   SimulationParameters scene = test::quarter_of(test::shape_modes(3.0, 32, 24, 1.0));
   scene.coupling.thickness_correction = true;
   const auto rates = test::measured_rates(scene), walls = *test::wall_factors(3.0, 1.0);
-  const std::array<double, 3> cube{1.066, 1.0, 1.0};
-  for (int n = 2; n <= 4; ++n) {
+  EXPECT_GT(rates[0], test::relaxation_rate(2, 1.0, 2.5) * walls[0]);
+  EXPECT_LT(rates[0], test::relaxation_rate(2, 1.0, 2.5));
+  for (int n = 3; n <= 4; ++n) {
     const auto i = static_cast<std::size_t>(n - 2);
-    EXPECT_NEAR(rates[i] / (test::relaxation_rate(n, 1.0, 2.5) * walls[i] * cube[i]), 1.0, 0.05) << n;
+    EXPECT_NEAR(rates[i] / (test::relaxation_rate(n, 1.0, 2.5) * walls[i]), 1.0, 0.05) << n;
   }
 }
 

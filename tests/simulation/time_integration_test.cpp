@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What docs/time_integration.md says of the ways to advance membranes.
 #include <gtest/gtest.h>
 

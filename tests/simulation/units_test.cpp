@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Lengths and times are in any unit: the same scene in others gives the same answer, bit for bit where the units are powers of two.
 #include <gtest/gtest.h>
 

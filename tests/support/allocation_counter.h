@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Counts the calls of malloc and its relatives by the program, for tests that a warmed-up step allocates nothing.

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """bench/compare.py on files made here: medians, ratios, exit codes, refusals."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What validation/run.py reads off its runs, against closed forms and independent values."""
 
 import math

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """tools/plot_run.py on runs made here: what is drawn, what is said, what is left behind."""
 
 import contextlib

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What bench/work_precision.py measures: distances of membranes, extrapolation, fronts and levels, against closed forms."""
 
 import pathlib

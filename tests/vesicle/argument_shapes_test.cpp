@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Public functions that take arrays look at their shapes, and name the argument, what was found and what is wanted.
 #include <functional>
 #include <stdexcept>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Threads of the host program, each with objects of its own.
 #include <gtest/gtest.h>
 

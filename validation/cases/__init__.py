@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """The cases of validation/run.py, in the order of the paper. Each module has
 
 TITLE    a line

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Viscosity ratios at which tank-treading ends and tumbling begins, by bisection at reduced volumes 0.95, 0.9, 0.8.
 
 Between the two a vesicle at Ca = 2.5 (10 in the literature's units) may tremble: its angle swings through zero and back. A run starts 10 degrees above

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """A strongly deflated vesicle, reduced volume 0.65, tank-treading from a start across the flow."""
 
 from harness import drawing, outputs, shear, theory

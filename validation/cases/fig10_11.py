@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figures 10 and 11: inertia at viscosity ratio 20, reduced volume 0.9: tumbling at small Re, tank-treading at large; where it changes."""
 
 import math

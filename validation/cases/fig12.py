@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 12: bullet, parachute and croissant in rectangular ducts: curvature of the rear and widths as numbers.
 
 Near its rear pole the membrane is fitted by x = x0 + (k_y y^2 + k_z z^2)/2: k > 0 where the rear bulges out, k < 0 where it is hollow.

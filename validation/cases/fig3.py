@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 3: relaxation of an oblate 3:3:1 and a prolate 1:1:2.8 with the tension force in its two forms, and how near to the shapes of
 least energy the vesicles come to rest.
 

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figures 4 and 5: tank-treading at reduced volumes 0.975, 0.9 and 0.8: shapes, angle, frequency of Eq. (34), errors of area."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 5 with the paper's own scheme and step, beside shape following: what the errors of area and the steady values owe to the scheme."""
 
 from cases import fig4_5

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 6: steady angle and frequency against reduced volume, beside Keller and Skalak's ellipsoid."""
 
 import numpy as np

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 7: what bending resistance does to the shape in tank-treading: Ca = 0.25, 2.5, 25 of the paper at t = 5."""
 
 from harness import drawing, outputs, shear

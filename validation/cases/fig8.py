@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 8: steady angle at viscosity ratios 2.7, 5 and 8 against excess area, beside Keller and Skalak."""
 
 import math

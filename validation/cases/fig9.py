@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Figure 9: tumbling at viscosity ratio 20, reduced volumes 0.975, 0.9, 0.8, to t = 20."""
 
 import math

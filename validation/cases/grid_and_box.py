@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Steady angle and frequency without the errors of grid and box: extrapolated in the spacing h and in the width B of the box.
 
 At B = 12 the limit h -> 0 is taken twice, from runs with and without correction of the thickness, each by a quadratic in h through three

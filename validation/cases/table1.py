@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Table 1: errors of H, K and Lap H on a sphere, an ellipsoid 1:2:4 and r = 1 + exp(-3 Re Y_3^2)."""
 
 import json

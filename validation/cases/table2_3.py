@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Tables 2 and 3: relaxation of the oblate 3:3:1 to t = 0.5 at h = 6/32 ... 6/256: differences of successive grids, and conservation.
 
 Two ways: as the paper computes it, and implicit at the same step with sigma0 = 16000 and its equations solved to 1e-8, so that the velocities, which are

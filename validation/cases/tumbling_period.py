@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """How long half a turn takes at viscosity ratio 20, beside Keller and Skalak: pi/sqrt(1/4 - C^2)."""
 
 import numpy as np

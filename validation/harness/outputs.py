@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What a run has written (docs/results.md): numbers, courses, membranes."""
 
 import csv

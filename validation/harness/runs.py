@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs of scenes: done once, continued from their checkpoints after a kill, shared by the cases that need the same.
 
 A run is a scene and the keys that differ from it. Its folder under out/validation is named after both, so that a changed scene is

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """What the cases in shear flow share: their scenes' keys and what is read from their courses."""
 
 import math

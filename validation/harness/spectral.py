@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Spherical harmonics on the marker mesh, in plain numpy: independent of the library, for what is read from files.
 
 Fields have the shape (latitudes, longitudes, ...), latitudes from north to south at Gauss nodes; coefficients (order, degree, ...).

@@ -1,3 +1,5 @@
+# SPDX-FileCopyrightText: The Vesiflow authors
+# SPDX-License-Identifier: BSD-3-Clause
 """Theories of a vesicle in shear flow of rate 1.
 
 Keller and Skalak's fluid ellipsoid (J. Fluid Mech. 120, 27, 1982), for prolates. Its shape is given and does not deform, and its membrane velocity keeps

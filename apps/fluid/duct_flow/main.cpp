@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Flow in a rectangular duct against its exact series, by libfluid alone.
 #include <fmt/format.h>
 

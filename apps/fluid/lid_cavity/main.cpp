@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The lid-driven cube against published profiles, by libfluid alone.
 #include <fmt/format.h>
 

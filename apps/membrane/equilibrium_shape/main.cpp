@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Equilibrium shapes of vesicles by libvesicle alone.
 #include <fmt/format.h>
 

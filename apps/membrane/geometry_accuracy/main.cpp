@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Table 1 of the paper: errors of H, K and Lap_Gamma H of known surfaces.
 #include <fmt/format.h>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
@@ -21,7 +23,7 @@ struct Phases {
   fluid::PhaseAccount mesh;                  ///< velocity filter, move, target areas
   fluid::PhaseAccount redistribution;        ///< looks at the meshes and what follows from them
   fluid::PhaseAccount adaptation;            ///< remembering and taking back of adaptive steps, and of a start
-  fluid::PhaseAccount diagnostics;
+  fluid::PhaseAccount diagnostics;           ///< measures of the membranes
 };
 
 /// Calls visit(name, account) for each, in the order above; the names are those of summary.json.

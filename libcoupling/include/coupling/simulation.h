@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <functional>
@@ -8,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "coupling/export.h"
 #include "coupling/flow.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/phases.h"
@@ -20,34 +23,37 @@ namespace vesiflow::coupling {
 
 /// A redistribution of the markers of one vesicle at the end of a step.
 struct Redistribution {
-  std::size_t vesicle = 0;
-  vesicle::RedistributionReport report;
+  std::size_t vesicle = 0;               ///< number of the vesicle
+  vesicle::RedistributionReport report;  ///< what was done
 };
 
-/// Everything a run needs to go on as if it had not been interrupted.
+/// What a vesicle needs to go on as if the run had not been interrupted.
 struct VesicleState {
-  vesicle::MembraneState membrane;
-  std::vector<double> motion_history;
-  std::int64_t redistributions = 0;
+  vesicle::MembraneState membrane;     ///< positions, areas, strain and tension
+  std::vector<double> motion_history;  ///< history of what moves the markers
+  std::int64_t redistributions = 0;    ///< their number since the start
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {
-  std::string run;  ///< the checkpoint that was read
-  double time = 0.0;
-  std::int64_t steps = 0;
+  std::string run;                                ///< the checkpoint that was read
+  double time = 0.0;                              ///< time of the checkpoint
+  std::int64_t steps = 0;                         ///< steps of the other run until then
   std::vector<vesicle::MembraneState> membranes;  ///< on the meshes of this simulation, at its t = 0
 };
+/// Everything a run needs to go on as if it had not been interrupted.
 struct SimulationState {
-  fluid::FaceVector velocity, previous_velocity;
-  fluid::Field<fluid::Cell> pressure;
-  fluid::FluidClock clock;
-  std::vector<VesicleState> vesicles;
+  fluid::FaceVector velocity,          ///< velocity of the fluid
+      previous_velocity;               ///< its velocity one step ago
+  fluid::Field<fluid::Cell> pressure;  ///< pressure of the fluid
+  fluid::FluidClock clock;             ///< times of the two velocities
+  std::vector<VesicleState> vesicles;  ///< state of each vesicle
   std::vector<double> step_control;    ///< of adaptive steps, and of a start in parts; else empty
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
 };
 
-/// A force of a program's own on the fluid at the markers of a vesicle, per area of the membrane: adds to `force` (markers x 3). Called in each step,
-/// and in each evaluation of an implicit one, by one thread, with the geometry that the membrane's own forces are of.
+/// A force of a program's own on the fluid at the markers of a vesicle, per area of the membrane: adds to `force`
+/// (markers x 3). Called in each step, and in each evaluation of an implicit one, by one thread, with the geometry that
+/// the membrane's own forces are of.
 using MembraneForce =
     std::function<void(double time, std::size_t vesicle, const vesicle::Surface& surface, vesicle::VectorField& force)>;
 /// A force of a program's own on the fluid, per volume, at a point and time. Called by one thread.
@@ -63,48 +69,55 @@ class ViscosityContrast;
 class BlowUpGuard;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
-class Simulation {
+class VESIFLOW_COUPLING_EXPORT Simulation {
  public:
   /// Vesicles as the parameters start them, in a flow.
-  /// \throws ParameterError for what cannot be computed
+  /// \throws ParameterError for what cannot be computed.
   Simulation(const SimulationParameters& parameters, const Flow& flow);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// Adds a force on the membranes from the next step on. It is no part of checkpoints: a program that restarts adds it again.
+  /// Adds a force on the membranes from the next step on. It is no part of checkpoints: a program that restarts adds it
+  /// again.
   void add_force(MembraneForce force);
-  /// Sets the force on the fluid from the next step on, evaluated at the faces of the grid in each step, or none (nullptr). Not in checkpoints.
+  /// Sets the force on the fluid from the next step on, evaluated at the faces of the grid in each step, or none
+  /// (nullptr). Not in checkpoints.
   void set_fluid_force(FluidForce force);
 
-  /// One time step (Steps 1 to 5 of the paper), of length time.step or, if time.adaptive, as long as its errors allow: a step
-  /// whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a look at the meshes and,
-  /// where one has passed a limit of `mesh`, its redistribution along the membrane. With markers that follow the shape, the first of equal steps
-  /// are taken in parts where shapes start far from rest; each ends when it would have ended.
-  /// \throws SimulationStopped when the state is not finite or grows by itself, a limit is passed or a marker meets a wall, with adaptive steps
-  /// when that happens, or the errors are too large, at time.smallest_step: the state is then that before the step
+  /// Takes one time step (Steps 1 to 5 of the paper), of length time.step or, if time.adaptive, as long as its errors
+  /// allow: a step whose errors are too large is taken back and repeated, shorter. Every sixteenth step ends with a
+  /// look at the meshes and, where one has passed a limit of `mesh`, its redistribution along the membrane. With
+  /// markers that follow the shape, the first of equal steps are taken in parts where shapes start far from rest; each
+  /// ends when it would have ended.
+  /// \throws SimulationStopped when the state is not finite or grows by itself, a limit is passed or a marker meets a
+  /// wall, with adaptive steps when that happens, or the errors are too large, at time.smallest_step: the state is then
+  /// that before the step.
   void step();
 
   /// Whether time.end is reached.
   bool finished() const;
-  /// Length of the last step; of the first before it.
+  /// Length of the last step; before the first step, the length of that one.
   double time_step() const;
-  /// Number of the step that reaches time.end, if steps stay as long as they are. Of equal steps.
+  /// Number of the step that reaches time.end, if steps stay as long as they are. For equal steps.
   long last_step() const { return last_step_; }
   /// Takes steps of that length from now on: time.step of parameters() becomes dt. For equal steps.
-  /// \throws std::invalid_argument when it is not positive and finite, or steps are adaptive
+  /// \throws std::invalid_argument when it is not positive and finite, or steps are adaptive.
   void set_time_step(double dt);
-  /// Adaptive steps that were taken back.
+  /// Number of adaptive steps that were taken back.
   long rejected_steps() const { return rejected_steps_; }
-  /// Parts in which equal steps were taken as shapes started far from rest (shape_following, implicit); 0 where they were whole.
+  /// Parts in which equal steps were taken as shapes started far from rest (shape_following, implicit); 0 where they
+  /// were whole.
   long start_parts() const;
   /// What moving the markers took.
   MarkerStatistics marker_statistics(std::size_t vesicle) const;
 
-  double time() const { return fluid_.time(); }
-  long steps() const { return static_cast<long>(fluid_.steps()) - extra_steps_; }
+  double time() const { return fluid_.time(); }                                    ///< time of the state
+  long steps() const { return static_cast<long>(fluid_.steps()) - extra_steps_; }  ///< number of steps since t = 0
+
+  /// The parameters, with the time step of set_time_step().
   const SimulationParameters& parameters() const { return parameters_; }
-  const Flow& flow() const { return flow_; }
+  const Flow& flow() const { return flow_; }  ///< the flow
 
   /// Redistributions that the last step ended with.
   std::span<const Redistribution> last_redistributions() const { return last_redistributions_; }
@@ -118,13 +131,15 @@ class Simulation {
   /// Greatest |div u| of the fluid; round-off when all is well.
   double max_divergence() const;
 
-  const fluid::NavierStokes& fluid() const { return fluid_; }
-  std::size_t vesicle_count() const { return vesicles_.size(); }
+  const fluid::NavierStokes& fluid() const { return fluid_; }     ///< the fluid
+  std::size_t vesicle_count() const { return vesicles_.size(); }  ///< number of vesicles
+
   /// Membrane with its geometry and forces at the present time.
   const vesicle::Membrane& membrane(std::size_t vesicle);
   /// Interpolated fluid velocity that moved the markers in the last step (markers x 3).
   const vesicle::VectorField& marker_velocity(std::size_t vesicle) const;
-  /// Part of the membrane's velocity that changes from step to step and back: max |U_n - 2 U_(n-1) + U_(n-2)|/4 over the markers.
+  /// Part of the membrane's velocity that changes from step to step and back: max |U_n - 2 U_(n-1) + U_(n-2)|/4 over
+  /// the markers.
   double velocity_noise(std::size_t vesicle) const;
   /// Greatest speed of the membrane in the last step.
   double membrane_speed(std::size_t vesicle) const;
@@ -132,20 +147,25 @@ class Simulation {
   bool suspects_blow_up() const;
   /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
   const fluid::Field<fluid::Cell>* viscosity() const;
-  Phases phases() const;
-  PartEntries part_entries() const;
+  Phases phases() const;             ///< time that the phases of the steps have taken
+  PartEntries part_entries() const;  ///< how often parts of them were entered
 
-  /// Starts anew from membranes, of which there must be one for each vesicle, in the place of those of the parameters, and from a velocity, whose
-  /// divergence-free part is taken, and a pressure on its grid. For a simulation that has taken no step; see start_from().
-  /// \throws std::invalid_argument when sizes differ or a number is not finite, std::domain_error for a membrane without a geometry,
-  /// SimulationStopped for a marker at a wall
+  /// Starts anew from the end of another run, see run::start_from(). For a simulation that has taken no step.
+  /// \param start the membranes, one for each vesicle, in the place of those of the parameters.
+  /// \param velocity of the fluid, on the grid of this simulation; its divergence-free part is taken.
+  /// \param pressure of the fluid, on the same grid.
+  /// \throws std::invalid_argument when sizes differ or a number is not finite.
+  /// \throws std::domain_error for a membrane without a geometry.
+  /// \throws SimulationStopped for a marker at a wall.
   void start(std::shared_ptr<const Start> start, const fluid::FaceVector& velocity,
              const fluid::Field<fluid::Cell>& pressure);
   /// The run it has started from, or nullptr.
   const Start* started_from() const { return start_.get(); }
 
-  SimulationState state() const;
-  /// \throws std::invalid_argument when the state belongs to another grid or mesh
+  SimulationState state() const;  ///< what restore() takes
+
+  /// Goes on from a state.
+  /// \throws std::invalid_argument when the state belongs to another grid or mesh.
   void restore(const SimulationState& state);
 
  private:
@@ -184,12 +204,12 @@ class Simulation {
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if none are wanted
   std::vector<Redistribution> last_redistributions_;
   Phases phases_;
-  std::unique_ptr<ImplicitStep> implicit_step_;   ///< of time.markers = "implicit"
-  std::unique_ptr<StepControl> step_control_;     ///< of adaptive steps
-  std::unique_ptr<StartControl> start_control_;   ///< of equal steps that start in parts where they must
-  std::vector<VesicleState> remembered_;          ///< before the step that is tried
-  std::vector<vesicle::ScalarField> curvatures_;  ///< the same, in a start
-  long extra_steps_ = 0;                          ///< of the fluid, by parts of steps
+  std::unique_ptr<ImplicitStep> implicit_step_;   // of time.markers = "implicit"
+  std::unique_ptr<StepControl> step_control_;     // of adaptive steps
+  std::unique_ptr<StartControl> start_control_;   // of equal steps that start in parts where they must
+  std::vector<VesicleState> remembered_;          // before the step that is tried
+  std::vector<vesicle::ScalarField> curvatures_;  // the same, in a start
+  long extra_steps_ = 0;                          // of the fluid, by parts of steps
   long rejected_steps_ = 0;
   long last_step_ = 0;
   std::unique_ptr<BlowUpGuard> guard_;

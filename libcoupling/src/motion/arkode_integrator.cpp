@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "motion/arkode_integrator.h"
 
 #include <arkode/arkode_erkstep.h>

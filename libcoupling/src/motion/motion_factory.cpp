@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The one place where motions meet all parameters.
 #include "motion/motion_factory.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Stands in for arkode_integrator.cpp and fixed_point.cpp in builds without SUNDIALS.
 #include <stdexcept>
 

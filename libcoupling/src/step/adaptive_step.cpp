@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Steps of a simulation that are tried, judged by their errors, and taken back.
 #include <fmt/format.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A step of the coupled method, as section 3.3 of the paper has it, and what is looked at after it.
 #include <fmt/format.h>
 

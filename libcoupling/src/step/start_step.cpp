@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The steps of a start: whole, or in parts where shapes start far from rest.
 #include <algorithm>
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "viscosity/viscosity_contrast.h"
 
 #include <algorithm>

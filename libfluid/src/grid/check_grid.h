@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Public functions that take fields check, once in a call, that these are on the grid they must be on: loops do not look at extents.
 #pragma once
 

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "operators/block_algebra.h"
 
 namespace vesiflow::fluid {

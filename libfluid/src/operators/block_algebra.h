@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The vector algebra of iterative methods on arrays of unknowns, parallel over planes. Sums are taken plane by plane
 // and then in order: the same bits for every number of threads.
 #pragma once

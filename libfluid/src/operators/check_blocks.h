@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Public functions that take vectors of unknowns check, once in a call, that these have the shape of the problem.
 #pragma once
 

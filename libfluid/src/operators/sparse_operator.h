@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The operator of EllipticProblem as a sparse matrix, for factorisation.
 #pragma once
 

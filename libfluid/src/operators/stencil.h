@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The operators of EllipticProblem applied to arrays with ghosts, without a branch at the walls.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The full-grid passes of one time step of NavierStokes. They are bound by memory traffic, so each does as
 // much as it can per number read. Parallel over z planes; the same bits for every number of threads.
 #pragma once

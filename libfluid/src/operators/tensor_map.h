@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Linear maps between arrays that are tensor products of sparse one-dimensional maps: transfers between grids.
 #pragma once
 

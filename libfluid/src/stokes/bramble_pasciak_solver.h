@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The Stokes system with variable viscosity: conjugate gradients for velocity and pressure together.
 #pragma once
 

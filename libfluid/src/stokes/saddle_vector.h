@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Vectors of a velocity and a pressure, for iterative methods on both together.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The Stokes system with constant viscosity: conjugate gradients for the pressure, with fast velocity solves.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The gradient and the divergence of the Stokes equations on arrays with ghosts, in any mix of walls and periodic axes.
 #pragma once
 

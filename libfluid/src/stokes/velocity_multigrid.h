@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A multigrid cycle for the viscous operator with variable viscosity: the preconditioner of the velocity.
 #pragma once
 

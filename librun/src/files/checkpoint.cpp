@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "run/checkpoint.h"
 
 #include <fmt/format.h>
@@ -14,7 +16,7 @@
 namespace vesiflow::run {
 namespace {
 
-constexpr std::int64_t format_version = 4;
+constexpr std::int64_t format_version = 5;
 
 template <class Centring>
 void write_field(Hdf5File& file, const std::string& name, const fluid::Field<Centring>& field) {

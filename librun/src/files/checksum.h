@@ -1,39 +1,35 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstdint>
-#include <cstring>
+#include <memory>
+#include <span>
 #include <string_view>
+
+struct XXH3_state_s;
 
 namespace vesiflow::run {
 
-/// A 64-bit checksum of a sequence of numbers and texts. Each step, exclusive or, product with an odd number and
-/// xor-shift, is a bijection of the sum: a change of one number always changes it, any other but for one chance in
-/// 2^64. Unlike sums modulo 2^k - 1 (Fletcher) it tells words of zeros from words of ones, and sees zeroed data.
+/// A 64-bit checksum, XXH3 of xxHash without a seed, of the bytes of a sequence of numbers and texts as they lie in memory.
+/// Lists and texts are preceded by their length, so that values that move from one to the next change the sum. Unlike sums
+/// modulo 2^k - 1 (Fletcher) it tells words of zeros from words of ones, and sees zeroed data.
 class Checksum {
  public:
-  void add(const double* values, std::size_t count) {
-    add_word(count);
-    for (std::size_t i = 0; i < count; ++i) add(values[i]);
-  }
-  void add(double value) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, &value, sizeof word);
-    add_word(word);
-  }
-  void add(std::int64_t value) { add_word(static_cast<std::uint64_t>(value)); }
-  void add(std::string_view text) {
-    add_word(text.size());
-    for (const char c : text) add_word(static_cast<unsigned char>(c));
-  }
-  std::int64_t value() const { return static_cast<std::int64_t>(sum_); }
+  Checksum();
+  void add(std::span<const double> values);
+  void add(double value);
+  void add(std::int64_t value);
+  void add(std::string_view text);
+  std::int64_t value() const;
 
  private:
-  void add_word(std::uint64_t word) {
-    sum_ = (sum_ ^ word) * 0x9e3779b97f4a7c15ULL;
-    sum_ ^= sum_ >> 32;
-  }
+  void add_bytes(const void* bytes, std::size_t count);
 
-  std::uint64_t sum_ = 0x243f6a8885a308d3ULL;  // of nothing: any number but 0
+  struct Free {
+    void operator()(XXH3_state_s* state) const;
+  };
+  std::unique_ptr<XXH3_state_s, Free> state_;
 };
 
 }  // namespace vesiflow::run

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Stands in for hdf5_file.cpp in builds without HDF5.
 #include "files/hdf5_file.h"
 #include "run/errors.h"

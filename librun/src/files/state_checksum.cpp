@@ -1,4 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "files/state_checksum.h"
+
+#include <span>
 
 #include "files/checksum.h"
 
@@ -6,7 +10,7 @@ namespace vesiflow::run {
 namespace {
 
 void add_array(Checksum& sum, const auto& array) {
-  sum.add(array.data(), static_cast<std::size_t>(array.size()));
+  sum.add(std::span(array.data(), static_cast<std::size_t>(array.size())));
 }
 
 void add_velocity(Checksum& sum, const fluid::FaceVector& u) {

@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include <omp.h>
 
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "run/results.h"
 #include "run/vesicle_record.h"
 #include "scene/scene_keys.h"
+#include "vesiflow/version.h"
 
 namespace vesiflow::run {
 namespace {

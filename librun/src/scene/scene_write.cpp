@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Writing a scene back as TOML, and listing its keys.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,10 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <optional>
 
+#include "vesicle/export.h"
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 #include "vesicle/types.h"
@@ -20,15 +23,17 @@ enum class FilterOrder {
 
 /// The velocity filter that keeps the marker mesh smooth. The normal velocity is only dealiased; the
 /// tangential one, which does not change the shape, keeps few degrees.
-class MeshFilter {
+class VESIFLOW_VESICLE_EXPORT MeshFilter {
  public:
   /// Numbers of degrees kept; those beyond the mesh's `latitudes` degrees mean all of them.
-  /// @throws std::invalid_argument unless both are >= 1.
+  /// \throws std::invalid_argument unless both are >= 1.
   MeshFilter(const SphereGrid& grid, FilterOrder order, int normal_degrees, int tangential_degrees);
 
-  /// filtered: shape (markers, 3), resized if needed; must not be `velocity`.
-  /// @throws std::invalid_argument if velocity has the wrong size or the surface lives on another grid, std::domain_error if velocity is not finite (filtered is then as it
-  /// was).
+  /// Filters a marker velocity.
+  /// \param velocity U, shape (markers, 3).
+  /// \param filtered U~, shape (markers, 3), resized if needed; must not be `velocity`.
+  /// \throws std::invalid_argument if velocity has the wrong size or the surface lives on another grid.
+  /// \throws std::domain_error if velocity is not finite (filtered is then as it was).
   void apply(const Surface& surface, const VectorField& velocity, VectorField& filtered);
 
  private:
@@ -53,15 +58,20 @@ enum class SlipReference {
 
 /// Target areas of the markers, which follow the slip of the mesh relative to the membrane (Step 5 of
 /// Section 3.3).
-class TargetAreaUpdate {
+class VESIFLOW_VESICLE_EXPORT TargetAreaUpdate {
  public:
+  /// For surfaces on that grid.
   TargetAreaUpdate(const SphereGrid& grid, SlipReference reference);
 
   /// One step of Eqs. (33) and (32) with the geometry before the move:
-  ///   ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
-  /// velocity U, filtered U~: shape (markers, 3); target_areas: shape (markers).
-  /// @throws std::invalid_argument for a wrong size or a surface on another grid, std::domain_error if a result is not finite and > 0 (target_areas is as it
-  /// was).
+  ///
+  ///     ln dA0 += dt div[ P (U~ - U) ], then dA0 scaled so that it sums to total_area.
+  ///
+  /// \param velocity U, shape (markers, 3).
+  /// \param filtered U~, shape (markers, 3).
+  /// \param target_areas dA0, shape (markers).
+  /// \throws std::invalid_argument for a wrong size or a surface on another grid.
+  /// \throws std::domain_error if a result is not finite and > 0 (target_areas is as it was).
   void apply(const Surface& surface, const VectorField& velocity, const VectorField& filtered, double dt,
              double total_area, ScalarField& target_areas);
 

@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/surface.h"
 
 namespace vesiflow::vesicle {
@@ -8,8 +11,8 @@ namespace vesiflow::vesicle {
 /// numbers do not depend on how the sphere of parameters is turned.
 struct MeshQuality {
   /// max over the markers of the larger over the smaller principal stretch, >= 1: the square root of the ratio of the
-  /// eigenvalues of the metric (E, F; F, G) relative to the unit sphere's (1, 0; 0, sin^2 theta). 1 for a conformal map;
-  /// a spheroid X = (a sin cos, a sin sin, c cos) has c/a or a/c at its equator.
+  /// eigenvalues of the metric (E, F; F, G) relative to the unit sphere's (1, 0; 0, sin^2 theta). 1 for a conformal
+  /// map; a spheroid X = (a sin cos, a sin sin, c cos) has c/a or a/c at its equator.
   double aspect_ratio = 1;
   /// Largest over smallest area element per area of the unit sphere, >= 1.
   double area_ratio = 1;
@@ -17,6 +20,7 @@ struct MeshQuality {
   double spectrum_tail = 0;
 };
 
-MeshQuality mesh_quality(const Surface& surface);
+/// Quality of the mesh of a surface at its last geometry.
+VESIFLOW_VESICLE_EXPORT MeshQuality mesh_quality(const Surface& surface);
 
 }  // namespace vesiflow::vesicle

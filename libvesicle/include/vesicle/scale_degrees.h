@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <type_traits>
@@ -6,8 +8,8 @@
 
 namespace vesiflow::vesicle {
 
-/// Multiplies the coefficients of each degree n, of all orders, by a number: factor(n) for all fields alike, or factor(field, n). It is
-/// asked once for each degree, or field and degree.
+/// Multiplies the coefficients of each degree n, of all orders, by a number: factor(n) for all fields alike, or
+/// factor(field, n). It is asked once for each degree, or field and degree.
 template <class Factor>
 void scale_degrees(Coefficients& coefficients, const Factor& factor) {
   for (int n = 0; n < coefficients.degrees(); ++n) {

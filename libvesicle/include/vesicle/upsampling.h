@@ -1,5 +1,8 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "vesicle/export.h"
 #include "vesicle/spectrum.h"
 
 namespace vesiflow::vesicle {
@@ -13,15 +16,16 @@ enum class Upsampling {
 };
 
 /// 1, 1.5 or 2.
-/// @throws std::invalid_argument for automatic.
-double factor(Upsampling upsampling);
+/// \throws std::invalid_argument for automatic.
+VESIFLOW_VESICLE_EXPORT double factor(Upsampling upsampling);
 
 /// round_up(factor * latitudes).
-int upsampled_latitudes(int latitudes, Upsampling upsampling);
+VESIFLOW_VESICLE_EXPORT int upsampled_latitudes(int latitudes, Upsampling upsampling);
 
-/// The smallest factor whose fine grid leaves out less than `tolerance` of the Laplacian of the mean curvature H, judged by
-/// extrapolating the spectrum of H; twice if none does. A function of the spectrum alone: same shape, same choice.
-/// @throws std::invalid_argument unless tolerance > 0.
-Upsampling choose_upsampling(const Spectrum& mean_curvature, double tolerance = 1e-8);
+/// The smallest factor whose fine grid leaves out less than `tolerance` of the Laplacian of the mean curvature H,
+/// judged by extrapolating the spectrum of H; twice if none does. A function of the spectrum alone: same shape, same
+/// choice.
+/// \throws std::invalid_argument unless tolerance > 0.
+VESIFLOW_VESICLE_EXPORT Upsampling choose_upsampling(const Spectrum& mean_curvature, double tolerance = 1e-8);
 
 }  // namespace vesiflow::vesicle

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What the delta functions do to a velocity whose discrete divergence is zero: its divergence between the points, its flux
 // through a closed surface, and the volume of a surface that moves with it. The numbers of docs/coupling.md are the
 // properties that `coupling_tests --gtest_filter='DivergencePreserving.*' --gtest_output=xml` records.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // MarkerTransfer for every kernel on every kind of axis.
 #include <gtest/gtest.h>
 #include <omp.h>

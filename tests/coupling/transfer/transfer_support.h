@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Grids, markers and fields for the tests of MarkerTransfer.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What every EllipticSolver must do, for every backend in the build and every kind of problem.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

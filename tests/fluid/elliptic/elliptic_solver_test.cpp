@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What belongs to one backend, to the factory or to the problem.
 #include "fluid/elliptic_solver.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Walls, ghosts, operators and solvers on a part of a box between mirrors: what they give on the whole.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The operators of EllipticProblem: symmetry, energy, closed forms, order.
 #include "operators/stencil.h"
 

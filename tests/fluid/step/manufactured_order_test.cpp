@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Orders of accuracy in a forced flow with constant and with variable viscosity.
 #include <gtest/gtest.h>
 

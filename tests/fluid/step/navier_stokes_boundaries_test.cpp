@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The time step with periodic axes, walls, and mixtures of both.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

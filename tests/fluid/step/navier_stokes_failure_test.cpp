@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is left after a refusal: everything, or a clear error again; never a wrong state.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Flows that are symmetric about planes, computed on the part of the box between them and on the whole.
 #include <gtest/gtest.h>
 

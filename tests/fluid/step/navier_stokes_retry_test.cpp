@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Steps that are tried, taken back and repeated.
 #include <gtest/gtest.h>
 

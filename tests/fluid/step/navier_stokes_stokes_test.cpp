@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The time step without inertia: every step is a Stokes problem.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Identities of the time step: divergence, exact flows, bits, errors.
 #include "fluid/navier_stokes.h"
 

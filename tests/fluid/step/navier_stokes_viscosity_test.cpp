@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The time step with a field of viscosity.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

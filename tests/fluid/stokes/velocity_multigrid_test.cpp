@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The preconditioner of StokesSolver and its parts.
 #include "stokes/velocity_multigrid.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A simulation without any configuration file: a vesicle in shear flow, with a force of the program's own that keeps it in place.
 #include <cstdio>
 #include <numbers>

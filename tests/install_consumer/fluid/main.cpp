@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A flow of one's own: a channel, periodic along x and y, whose upper wall moves and which holds a ball of another viscosity.
 #include <cmath>
 #include <cstdio>

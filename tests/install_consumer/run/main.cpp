@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // A scene and a flow of one's own: a vesicle stretched by uniaxial extension u = rate (-x/2, -y/2, z).
 #include <cstdio>
 

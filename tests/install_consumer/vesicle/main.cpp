@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The curvatures of a surface of one's own: a dumbbell.
 #include <cmath>
 #include <cstdio>

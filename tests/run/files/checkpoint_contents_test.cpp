@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Checkpoints that are good HDF5 files with wrong contents, and states that are none. Each case was found by
 // fuzz/checkpoint_contents.cpp or fuzz/state.cpp, or while writing them.
 #include <gtest/gtest.h>

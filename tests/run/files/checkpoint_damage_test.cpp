@@ -1,3 +1,5 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -187,11 +189,11 @@ TEST_F(CheckpointDamage, WhatTheChecksumsOfDataSetsCannotTellIsRefused) {
 TEST_F(CheckpointDamage, AnotherFormatIsRefusedByName) {
   {
     Hdf5File file(file_, Hdf5File::Mode::create);
-    file.attribute("/", "format", std::int64_t{3});
+    file.attribute("/", "format", std::int64_t{4});
     file.close();
   }
   const std::string message = outcome(bytes_of(file_));
-  for (const char* part : {"format 3, this version reads format 4", "version of the program that wrote it"})
+  for (const char* part : {"format 4, this version reads format 5", "version of the program that wrote it"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 

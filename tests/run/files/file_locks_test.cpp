@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // File systems without locks, and readers that hold some: a run needs none of its own.
 #include <fcntl.h>
 #include <gtest/gtest.h>

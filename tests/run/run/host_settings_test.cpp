@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a run finds of the host program's settings, and leaves of them.
 #include <gtest/gtest.h>
 #include <hdf5.h>

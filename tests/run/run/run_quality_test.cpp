@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What is said of the errors of a run: where, when and what to do.
 #include "run/run_quality.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Shapes as scenes ask for them, and their files.
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Adjoints, shared Legendre sums, threads and allocations of the transforms.
 #include <random>
 #include <thread>

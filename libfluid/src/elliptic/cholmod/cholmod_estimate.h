@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // What a sparse Cholesky factorisation will cost, before it is begun.
 #pragma once
 

@@ -1,9 +1,12 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
 #include "elliptic/cholmod/cholmod_solver.h"
 
 #include <cholmod.h>
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 
 #include "elliptic/cholmod/cholmod_blas.h"
@@ -27,6 +30,10 @@ const CholmodOptions& checked(const CholmodOptions& options) {
   check("refactor.change", options.refactor.change, options.refactor.change >= 0.0, "; it must be >= 0");
   return options;
 }
+
+// METIS draws from the C library's rand(), which it seeds: of two analyses at a time each would draw what the other
+// misses, and orderings, and with them the last bits of solutions, would depend on who is faster.
+std::mutex one_analysis;
 
 }  // namespace
 
@@ -56,7 +63,10 @@ struct CholmodSolver::Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
+  // With CHOLMOD's default ordering: AMD, and METIS where that fills in much (docs/studies/libfluid.md,
+  // bench/orderings).
   void analyse() {
+    const std::lock_guard alone(one_analysis);
     cholmod_sparse view = matrix_view();
     factor = cholmod_l_analyze(&view, &common);
     check("analysis");

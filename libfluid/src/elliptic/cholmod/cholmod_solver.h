@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The "cholmod" backend of EllipticSolver (see CholmodOptions).
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // With n = p m:  Z_{pk+s} = sum_{j<m} exp(-2 pi i j k / m) [exp(-2 pi i j s / n) sum_{q<p} exp(-2 pi i q s / p) z_{j+qm}].
 #include "elliptic/fft/block_fft.h"
 

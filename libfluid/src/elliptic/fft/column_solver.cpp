@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // With r + 1/r = 2 + shift/s, 0 < r < 1, the operator on an unbounded line is s/r (1 - r S) (1 - r S^-1), where S moves
 // numbers one place up. Hence two sweeps without a division,
 //   y_k = c b_k + r y_{k-1},   x_k = y_k + r x_{k+1},   c = scale r / s,

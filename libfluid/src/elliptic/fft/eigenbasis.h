@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The basis that diagonalises the difference operator along one axis, and its eigenvalues.
 #pragma once
 

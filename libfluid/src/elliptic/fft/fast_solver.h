@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Solvers of one scalar problem with constant coefficients by fast transforms, of which FftSolver is made.
 #pragma once
 

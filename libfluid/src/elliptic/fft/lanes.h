@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Vectors of four doubles (the vector extension of GCC and Clang, which any target has), and blocks of lines
 // that are transformed side by side.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Cells. With the even-odd order v = (x_0, x_2, x_4, .., x_5, x_3, x_1), its Fourier transform V_k and
 // t = pi k / 2n, the cosine transform is (Makhoul 1980, doi:10.1109/TASSP.1980.1163351)
 //   y_k = 2 Re(exp(-i t) V_k).

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Sine, cosine and Fourier transforms of several real lines at once, by complex FFTs of pairs of lines.
 #pragma once
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // x and y are diagonalised by fast transforms, plane by plane; what remains are difference equations in z for
 // every pair of modes. Eigenvalues are those of the difference operator, so that the solution is exact to
 // round-off.

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Solves one scalar problem by fast transforms of planes in cache (FftOptions::Transforms::pairs_of_lines).
 #pragma once
 

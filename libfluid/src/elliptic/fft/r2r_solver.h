@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The reference of the "fft" backend: FFTW's three-dimensional real-to-real transform and a division by the sum of
 // three eigenvalues.
 #pragma once

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Both axes go through blocks of `lanes` lines that fit the first-level cache: rows, transposed on the way in, from the
 // input to as many blocks in scratch as there are, columns from there, transposed back, to the output. Lines of memory
 // are asked for one block ahead.

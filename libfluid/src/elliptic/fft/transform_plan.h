@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // Planned sine, cosine and Fourier transforms of a plane.
 #pragma once
 

@@ -1,11 +1,19 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The "cholmod" backend: its matrix, limits, and the policy of factoring anew.
 #ifdef VESIFLOW_WITH_CHOLMOD
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <omp.h>
 
+#include <array>
+#include <atomic>
 #include <memory>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "elliptic/cholmod/cholmod_blas.h"
 #include "elliptic/cholmod/cholmod_estimate.h"
@@ -238,16 +246,55 @@ TEST(CholmodSolver, DoesNotAllocateInASolve) {
   }
 }
 
-TEST(CholmodSolver, HasTheSameBitsForAnyNumberOfBlasThreads) {
+// Large enough for METIS, which draws random numbers of the process.
+TEST(CholmodSolver, HasTheSameBitsWhereThreadsFactorSideBySide) {
+  const auto problem =
+      EllipticProblem::velocity(Grid({0, 0, 0}, {1, 1, 1}, {12, 12, 12}), EllipticForm::stress, 1.0, 1.0);
+  const Numbers rhs(problem, 76), alone(problem);
+  make_elliptic_solver(problem, CholmodOptions{})->solve(rhs, alone);
+  const std::array<Numbers, 2> x{Numbers(problem), Numbers(problem)};
+  {
+    const auto solve = [&](const Numbers& solution) {
+      make_elliptic_solver(problem, CholmodOptions{})->solve(rhs, solution);
+    };
+    const std::jthread first([&] { solve(x[0]); }), second([&] { solve(x[1]); });
+  }
+  for (const Numbers& solution : x) EXPECT_TRUE(solution.same_bits(alone));
+}
+
+// OpenBLAS, if that is the BLAS and has threads; the number of before is given back.
+class BlasThreads : public testing::Test {
+ protected:
   using Get = int (*)();
   using Set = void (*)(int);
-  const auto get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
-  const auto set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (get == nullptr || set == nullptr) GTEST_SKIP() << "the BLAS is not OpenBLAS";
-  const int before = get();
-  // Large enough for products that OpenBLAS divides: without the guard the bits do differ.
-  const Grid box({0, 0, 0}, {1, 1, 1}, {16, 16, 16});
-  const auto problem = EllipticProblem::velocity(box, EllipticForm::stress, 1.0, 1.0);
+  using Dgemm = void (*)(const char*, const char*, const int*, const int*, const int*, const double*, const double*,
+                         const int*, const double*, const int*, const double*, double*, const int*);
+
+  void SetUp() override {
+    if (get == nullptr || set == nullptr || kind == nullptr) GTEST_SKIP() << "the BLAS is not OpenBLAS";
+    if (kind() == 0) GTEST_SKIP() << "this OpenBLAS has no threads";
+    before_ = get();
+  }
+  void TearDown() override {
+    if (before_ > 0) set(before_);
+  }
+  bool are_of_openmp() const { return kind() == 2; }
+
+  Get get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+  Set set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  Get kind = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_parallel"));
+
+ private:
+  int before_ = 0;
+};
+
+// Large enough for products that OpenBLAS divides: without the guard the bits do differ.
+EllipticProblem divided_problem() {
+  return EllipticProblem::velocity(Grid({0, 0, 0}, {1, 1, 1}, {16, 16, 16}), EllipticForm::stress, 1.0, 1.0);
+}
+
+TEST_F(BlasThreads, SolutionsHaveTheSameBitsForAnyNumber) {
+  const EllipticProblem problem = divided_problem();
   const Numbers rhs(problem, 75);
   const std::array<Numbers, 2> x{Numbers(problem), Numbers(problem)};
   for (const int threads : {1, 2}) {
@@ -256,18 +303,12 @@ TEST(CholmodSolver, HasTheSameBitsForAnyNumberOfBlasThreads) {
     make_elliptic_solver(problem, CholmodOptions{})->solve(rhs, x[threads - 1]);
     EXPECT_EQ(get(), granted);
   }
-  set(before);
   EXPECT_TRUE(x[0].same_bits(x[1]));
 }
 
 // Two threads of a host program may factor side by side.
-TEST(CholmodSolver, TheLastToLeaveGivesBackTheBlasThreads) {
-  using Get = int (*)();
-  using Set = void (*)(int);
-  const auto get = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
-  const auto set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
-  if (get == nullptr || set == nullptr) GTEST_SKIP() << "the BLAS is not OpenBLAS";
-  const int before = get();
+TEST_F(BlasThreads, TheLastToLeaveGivesThemBack) {
+  if (are_of_openmp()) GTEST_SKIP() << "their number is not the process's";
   set(2);
   const int granted = get();
   auto first = std::make_unique<OneBlasThread>();
@@ -277,7 +318,60 @@ TEST(CholmodSolver, TheLastToLeaveGivesBackTheBlasThreads) {
   EXPECT_EQ(get(), 1) << "the second is still at work";
   second.reset();
   EXPECT_EQ(get(), granted);
-  set(before);
+}
+
+TEST_F(BlasThreads, ANumberThatTheHostSetsMeanwhileStays) {
+  if (are_of_openmp()) GTEST_SKIP() << "their number is not the process's";
+  set(2);
+  auto guard = std::make_unique<OneBlasThread>();
+  set(3);
+  const int granted = get();
+  guard.reset();
+  EXPECT_EQ(get(), granted);
+}
+
+// A thread of the host multiplies matrices of small integers, which are exact however the sums are divided, while
+// another factors and solves.
+TEST_F(BlasThreads, AHostMayUseBlasWhileWeFactor) {
+  const auto dgemm = reinterpret_cast<Dgemm>(dlsym(RTLD_DEFAULT, "dgemm_"));
+  ASSERT_NE(dgemm, nullptr);
+  set(2);
+  const int granted = get(), openmp_before = omp_get_max_threads();
+  const EllipticProblem problem = divided_problem();
+  const Numbers rhs(problem, 75), alone(problem);
+  make_elliptic_solver(problem, CholmodOptions{})->solve(rhs, alone);
+
+  constexpr int n = 128;  // beyond 64^3 products OpenBLAS divides them
+  std::vector<double> a(n * n), b(n * n), expected(n * n, 0.0);
+  for (int i = 0; i < n * n; ++i) {
+    a[i] = (37 * i) % 11 - 5;
+    b[i] = (53 * i) % 13 - 6;
+  }
+  for (int column = 0; column < n; ++column)
+    for (int k = 0; k < n; ++k)
+      for (int row = 0; row < n; ++row) expected[row + n * column] += a[row + n * k] * b[k + n * column];
+  std::atomic<bool> done = false;
+  std::atomic<long> products = 0, wrong = 0;
+  std::thread host([&] {
+    const double one = 1.0, zero = 0.0;
+    std::vector<double> c(n * n);
+    while (!done || products == 0) {
+      dgemm("N", "N", &n, &n, &n, &one, a.data(), &n, b.data(), &n, &zero, c.data(), &n);
+      if (c != expected) ++wrong;
+      ++products;
+    }
+  });
+  for (int repetition = 0; repetition < 3; ++repetition) {
+    const Numbers x(problem);
+    const auto solver = make_elliptic_solver(problem, CholmodOptions{});
+    for (int again = 0; again < 5; ++again) solver->solve(rhs, x);
+    EXPECT_TRUE(x.same_bits(alone)) << "repetition " << repetition;
+  }
+  done = true;
+  host.join();
+  EXPECT_EQ(wrong, 0) << "of " << products;
+  EXPECT_EQ(get(), granted);
+  EXPECT_EQ(omp_get_max_threads(), openmp_before);
 }
 
 }  // namespace

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The difference equations along z, put into their definition in long double.
 #include "elliptic/fft/column_solver.h"
 

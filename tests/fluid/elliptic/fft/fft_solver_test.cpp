@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The "fft" backend: every combination of walls, periodic axes and mirrors, both kinds of transforms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The transforms of the fft solver against their definitions, summed in long double.
 #include "elliptic/fft/transform_plan.h"
 

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
 // The "pcg" backend: numbers of iterations, reports, starting vectors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
