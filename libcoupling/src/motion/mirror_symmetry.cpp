@@ -46,7 +46,7 @@ MirrorSymmetry::MirrorSymmetry(const SimulationParameters& parameters, const ves
   for (int axis = 0; axis < 3; ++axis) {
     const double plane = parameters.domain.lower[axis];
     if (!parameters.domain.mirror[axis] || !(markers.col(axis) < plane).any()) continue;
-    constexpr double tolerance = 1e-9;  // of the size: ten times that of check_scene()
+    constexpr double tolerance = 1e-9;  // of the size: ten times that of check()
     const double size = (markers.rowwise() - markers.row(0)).abs().maxCoeff();
     std::optional<std::vector<Eigen::Index>> images = mirror_images(markers, axis, plane, tolerance * size);
     if (!images)

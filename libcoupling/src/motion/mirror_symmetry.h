@@ -23,7 +23,7 @@ bool is_symmetric(const vesicle::VectorField& markers, int axis, double plane, d
 /// times the shear rate, and ended runs at t = 53 to 85.
 class MirrorSymmetry {
  public:
-  /// \param markers symmetric about the planes that they lie across, as check_scene() wants them
+  /// \param markers symmetric about the planes that they lie across, as check() wants them
   MirrorSymmetry(const SimulationParameters& parameters, const vesicle::VectorField& markers);
 
   /// Takes the mean of a displacement of the markers and of its mirror images. Its rows are markers, its columns x, y, z and any number

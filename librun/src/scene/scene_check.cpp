@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "scene/accuracy.h"
 #include "scene/scene_keys.h"
@@ -92,7 +94,9 @@ void check_scene(const Scene& scene, const coupling::Flow& flow, const std::stri
 }
 
 void check_scene(const Scene& scene, const std::string& name) {
-  if (scene.flow.type == FlowType::custom)
+  // Nothing flows in a box without a volume, which is refused below.
+  const bool has_volume = std::ranges::equal(scene.domain.lower, scene.domain.upper, std::ranges::less{});
+  if (scene.flow.type == FlowType::custom || !has_volume)
     return check_scene(scene,
                        coupling::custom_flow([](const fluid::Vector3&, double) { return fluid::Vector3{}; },
                                              fluid::WallMotion::steady),

@@ -428,6 +428,13 @@ TEST(Scene, EveryKeyIsDocumented) {
     EXPECT_NE(text.str().find("`" + key.name + "`"), std::string::npos) << key.name << " is not in docs/scene.md";
 }
 
+// A flow is made of the box before the box is checked: that of a duct needs one with a volume.
+TEST(Scene, ABoxWithoutAVolumeIsRefusedWhateverTheFlow) {
+  for (const char* type : {"duct", "plane_poiseuille", "shear"})
+    expect_parts(message_of(sphere, {std::string("flow.type=") + type, "domain.upper=[100, -100, 100]"}),
+                 {"domain.upper[1] = -100: must be above"});
+}
+
 // Programs that fill a scene themselves: each of these was accepted once, and the last two ran off an array.
 TEST(Scene, WhatAProgramFillsInIsCheckedAsAFileIs) {
   const auto refusal = [](const std::function<void(Scene&)>& spoil) -> std::string {
