@@ -31,6 +31,11 @@ function(vesiflow_compile_options target)
   endif()
 endfunction()
 
+# vesiflow_compile_quickly(TARGET): for sources without loops that matter, such as tests and command lines: compiled in half the time.
+function(vesiflow_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # vesiflow_precompile(TARGET HEADER...): reads headers that most sources of the target include once for all of them, which is more than
 # half of the time of compiling one. Not with a compiler launcher: ccache would have nothing to find again. Such builds, and
 # scripts/check_headers.sh, see what a source forgets to include.
