@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "coupling/errors.h"
@@ -12,6 +11,7 @@
 #include "coupling/initial_shape.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/marker_transfer.h"
+#include "coupling/mistakes.h"
 #include "coupling/parameter_table.h"
 #include "coupling/validity.h"
 #include "motion/mirror_symmetry.h"
@@ -21,31 +21,6 @@ namespace {
 
 // In lengths of the box: coordinates keep ten digits of it.
 constexpr double largest_distance = 1e6;
-
-// Mistakes, each once, gathered so that all of them are said at once.
-class Mistakes {
- public:
-  void add(const std::string& mistake) {
-    if (std::ranges::find(all_, mistake) == all_.end()) all_.push_back(mistake);
-  }
-  // Returns whether there was none.
-  bool gather(const std::function<void()>& check) {
-    try {
-      check();
-      return true;
-    } catch (const ParameterError& error) {
-      for (const std::string& mistake : error.mistakes()) add(mistake);
-      return false;
-    }
-  }
-  bool empty() const { return all_.empty(); }
-  void refuse() const {
-    if (!all_.empty()) throw ParameterError(all_);
-  }
-
- private:
-  std::vector<std::string> all_;
-};
 
 void check_ranges(const SimulationParameters& given, Mistakes& mistakes) {
   SimulationParameters parameters = given;  // visitors may change what they are shown
