@@ -34,7 +34,7 @@ std::vector<std::string> mistakes_of(const SimulationParameters& parameters) {
   return {};
 }
 
-// What a program fills in is checked as what a scene file says: each of these was accepted once, or ran off an array.
+// Each of these was accepted once, or ran off an array.
 TEST(CheckParameters, RefusesWhatAProgramFillsInWrong) {
   EXPECT_EQ(mistakes_of(one_vesicle()), std::vector<std::string>{});
   const auto refusal = [](const std::function<void(SimulationParameters&)>& spoil) {
