@@ -31,6 +31,11 @@ refused() {
 refused 2 '--ends open: must be one of periodic, walls' --ends open
 refused 2 '--half-widths -1: must be finite and > 0' --half-widths 3 -1
 refused 2 '--length 0: must be finite and > 0' --length 0
+# Boxes that are empty in floating point, or longer than any number.
+refused 2 '--length 5e-324: must be from 1e-100 to 1e\+100' --ends walls --length 5e-324
+refused 2 '--half-widths 1e\+308: must be from 1e-100 to 1e\+100' --half-widths 1e308 3
+refused 2 '--half-widths 1000000: must be short enough for at most 65536 cells' --half-widths 3 1e6
+refused 2 '--length 10000: must be short enough for at most 16384 cells' --ends walls --length 1e4 --cells 16 --refine 2
 refused 2 '--cells 3: must be from 4 to 1024' --cells 3
 refused 2 '--cells: must be one number or three' --cells 8 8
 refused 2 '--refine 9: must be from 0 to 6' --refine 9

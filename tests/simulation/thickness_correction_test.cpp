@@ -43,6 +43,40 @@ TEST(ThicknessCorrection, LacksTheKinkToFirstOrderAndIsOtherwiseOfSecond) {
   }
 }
 
+// m_2 of a kernel's function, in squares of the spacing.
+double second_moment(DeltaKernel any, Direction direction) {
+  constexpr int points = 1000;  // per spacing
+  const int half = support_width(any, direction) * points / 2;
+  double sum = 0.0;
+  for (int j = 0; j < half; ++j) {
+    const double r = (j + 0.5) / points;
+    sum += 2.0 * r * r * delta(any, r, direction) / points;
+  }
+  return sum;
+}
+
+// Long waves: a component i is spread and interpolated by 1 - h^2 (m_t q^2 + (m_n - m_t) q_i^2)/2 each, and the grid answers
+// to a wave by 1/q^2 + h^2/12 sum q_i^4/q^4. In the mean over all directions (of n_i^4: 1/5) what is transverse has the answer
+// (1 - alpha (q h)^2)/q^2, alpha = m_t + (m_n - m_t)/5 - 1/20. In motion/sphere_response.h that takes away, once what tension
+// mixes is left out,
+//   r_l^- = 2 R (l + 2)/pi int alpha h^2 q j_l j_{l+1} dq = alpha h^2 (l + 2)/(2 R),   r_l^+ = alpha h^2 (l - 1)/(2 R),
+// by j_{n-1}(x) + j_{n+1}(x) = (2n + 1) j_n(x)/x and int x j_n j_{n+1} dx = pi/4 (Weber and Schafheitlin). The numbers of the
+// response are good to 1e-5 of all of it (motion/constants.h), which is 1 % of these differences at most.
+TEST(ThicknessCorrection, SharpensByWhatKernelAndGridSmoothOutToSecondOrder) {
+  const vesicle::Membrane membrane = sphere(1.0, 1.0);
+  for (const DeltaKernel any : delta_kernels) {
+    const double along = second_moment(any, Direction::normal), across = second_moment(any, Direction::tangential);
+    const double alpha = across + (along - across) / 5.0 - 1.0 / 20.0;
+    const ThicknessCorrection coarse(membrane, any, 0.1, 1.0), fine(membrane, any, 0.05, 1.0);
+    for (int l = 1; l < 5; ++l) {
+      const double limit = 2.0 * fine.smoothing(l) / (0.05 * 0.05) - coarse.smoothing(l) / (0.1 * 0.1);
+      const double minus = alpha * (l + 2.0) / 2.0, plus = alpha * (l - 1.0) / 2.0;
+      const double mean = ((2.0 * l + 3.0) * minus + (2.0 * l - 1.0) * plus) / (4.0 * l + 2.0);
+      EXPECT_NEAR(limit / (l == 1 ? minus : mean), 1.0, 0.01) << name(any) << ", degree " << l;
+    }
+  }
+}
+
 // A velocity per force per area is a length over a viscosity.
 TEST(ThicknessCorrection, ScalesWithTheRadius) {
   const auto of_radius = [](double radius) {

@@ -16,6 +16,8 @@
 namespace {
 
 constexpr int fewest_cells = 4, most_cells = 1024, most_refinements = 6;
+// Of the box: squares of its lengths and of its spacings, and their inverses, are numbers.
+constexpr double shortest = 1e-100, longest = 1e100;
 
 struct Arguments : SteadyArguments {
   Duct duct;
@@ -26,12 +28,22 @@ struct Arguments : SteadyArguments {
   bool quiet = false;
 };
 
-// Cubes as nearly as can be, with `across` cells along y.
-std::array<int, 3> cells_of(const Duct& duct, int across) {
-  const auto along = [&](double length) {
-    return std::max(fewest_cells, static_cast<int>(std::lround(across * length / (2 * duct.d))));
+void require_length(const std::string& option, double given) {
+  require_positive(option, given);
+  require(given >= shortest && given <= longest, option, given, fmt::format("from {:g} to {:g}", shortest, longest));
+}
+
+// Cubes as nearly as can be, with `across` cells along y, of which the grids that follow have more.
+std::array<int, 3> cells_of(const Duct& duct, int across, int refinements) {
+  const int most = vesiflow::fluid::Grid::max_cells >> refinements;
+  const auto along = [&](const char* option, double given, double length) {
+    const double count = std::round(across * length / (2 * duct.d));
+    require(count <= most, option, given,
+            fmt::format("short enough for at most {} cells as long as those across the width", most));
+    return std::max(fewest_cells, static_cast<int>(count));
   };
-  return {duct.ends == DuctEnds::periodic ? fewest_cells : along(duct.length), across, along(2 * duct.e)};
+  return {duct.ends == DuctEnds::periodic ? fewest_cells : along("--length", duct.length, duct.length), across,
+          along("--half-widths", duct.e, 2 * duct.e)};
 }
 
 bool parse_command_line(int argc, char** argv, Arguments& arguments) {
@@ -66,11 +78,11 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
 
   arguments.quiet = command_line.is_quiet();
   duct.ends = ends == "walls" ? DuctEnds::walls : DuctEnds::periodic;
-  for (const double width : half_widths) require_positive("--half-widths", width);
+  for (const double width : half_widths) require_length("--half-widths", width);
   duct.d = half_widths[0];
   duct.e = half_widths[1];
+  if (given_length->count() > 0) require_length("--length", length);
   duct.length = given_length->count() > 0 ? length : 2 * duct.d;
-  require_positive("--length", duct.length);
   duct.reynolds_number = arguments.reynolds_number;
   arguments.method = stokes ? DuctMethod::stokes : DuctMethod::unsteady;
   require(arguments.refinements >= 0 && arguments.refinements <= most_refinements, "--refine", arguments.refinements,
@@ -82,7 +94,8 @@ bool parse_command_line(int argc, char** argv, Arguments& arguments) {
   for (const int count : cells)
     require(count << arguments.refinements <= most_cells, "--refine", arguments.refinements,
             fmt::format("small enough for at most {} cells along an axis", most_cells));
-  arguments.cells = cells.size() == 3 ? std::array{cells[0], cells[1], cells[2]} : cells_of(duct, cells[0]);
+  arguments.cells =
+      cells.size() == 3 ? std::array{cells[0], cells[1], cells[2]} : cells_of(duct, cells[0], arguments.refinements);
   return true;
 }
 

@@ -34,11 +34,11 @@ inline constexpr std::array<DeltaKernel, 7> delta_kernels{
     DeltaKernel::composite_bspline_32, DeltaKernel::composite_bspline_43,
     DeltaKernel::composite_bspline_54,
 };
-/// The names of the kernels in scenes, in the order of the enumeration.
+/// The names of the kernels, in the order of the enumeration.
 inline constexpr std::array<std::string_view, delta_kernels.size()> delta_kernel_names{
     "roma3", "peskin4", "smoothed4", "bao6", "bspline32", "bspline43", "bspline54"};
 
-/// The name of a kernel in scenes.
+/// The name of a kernel.
 constexpr std::string_view name(DeltaKernel kernel) {
   return delta_kernel_names[static_cast<std::size_t>(kernel)];
 }

@@ -18,10 +18,10 @@ enum class MarkerMotion {
   shape_following,    ///< the mesh follows the shape, the strain is a field of its own
   implicit            ///< the same, in fully implicit steps
 };
-/// The names of the motions in scenes, in the order of the enumeration.
+/// The names of the motions, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 6> marker_motion_names{
     "euler", "ab2", "arkode", "strain_relaxation", "shape_following", "implicit"};
-/// The name of a motion in scenes.
+/// The name of a motion.
 inline std::string_view name(MarkerMotion motion) {
   return marker_motion_names.at(static_cast<std::size_t>(motion));
 }

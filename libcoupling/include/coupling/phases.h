@@ -45,7 +45,7 @@ void visit_phases(Accounts& phases, Visit&& visit) {
   visit("diagnostics", phases.diagnostics);
 }
 
-/// How often parts of the phases above were entered that a scene can switch off, summed over the membranes.
+/// How often parts of the phases above were entered that parameters can switch off, summed over the membranes.
 struct PartEntries {
   std::int64_t tension = 0;       ///< force of sigma0, in membrane
   std::int64_t strain = 0;        ///< target areas or strain field, in mesh

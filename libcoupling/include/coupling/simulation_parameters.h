@@ -23,7 +23,7 @@
 namespace vesiflow::coupling {
 
 /// Shapes that a vesicle may start with. The surfaces of `coefficients` and `mesh` are both in
-/// VesicleParameters::surface; the two differ in the file that a scene names for them.
+/// VesicleParameters::surface; the two differ in the kind of file that it comes from.
 enum class Shape {
   sphere,        ///< vesicle::sphere()
   prolate,       ///< vesicle::prolate()
@@ -66,8 +66,8 @@ struct VesicleParameters {
 };
 
 /// All that decides how a simulation computes, beside its flow (coupling/flow.h). Dimensionless groups are the paper's
-/// (section 3.1): Re = rho r^2/(mu_o t_c), Ca = mu_o r^3/(c_b t_c). Scene files have keys of the same names
-/// (docs/scene.md).
+/// (section 3.1): Re = rho r^2/(mu_o t_c), Ca = mu_o r^3/(c_b t_c). docs/scene.md says what each parameter
+/// does, by the name that it has here.
 struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   /// The box and its grid.
   struct Domain {

@@ -10,7 +10,7 @@ namespace vesiflow::coupling {
 /// Where the method is stable, where it was verified, and what is refused: the one table that the check of parameters,
 /// plans, presets of accuracy, advice after a blow-up and the warnings of a run read. docs/stability.md (S) and
 /// docs/validation.md (V) have the studies.
-/// A run warns where what is named warned_ is passed: errors at which results are no longer those of the scene.
+/// A run warns where what is named warned_ is passed: errors at which results are no longer those of the parameters.
 namespace validity {
 
 constexpr double least_viscosity_ratio = 0.05,  ///< tried in libfluid and here

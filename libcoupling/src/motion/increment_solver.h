@@ -16,8 +16,8 @@ namespace vesiflow::coupling {
 /// harmonics (as_vector()):
 ///   (A_n + dt (D_n + w.grad)) x = b,
 /// A_n and the damping D_n diagonal in the degrees, by GMRES on x + (A_n + dt D_n)^{-1} dt w.grad x = (A_n + dt
-/// D_n)^{-1} b. What is small of positions is measured in a unit of length, so that it does not depend on that of the
-/// scene.
+/// D_n)^{-1} b. What is small of positions is measured in a unit of length that is the simulation's own, so that it does
+/// not depend on the one that its parameters are given in.
 class IncrementSolver {
  public:
   using Vector = Gmres::Vector;

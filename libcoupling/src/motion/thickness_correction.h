@@ -16,7 +16,10 @@ namespace vesiflow::coupling {
 ///   diag(r_{n+1}^+, r_{n-1}^-) + g_n t t^T,   g_n = mixed (2n+1)/sqrt(n (n+1)),
 /// where t is the direction of a force along the sphere: g is the kink in the velocity that interpolation averages over, c h F/mu
 /// to leading order (first order in h, thickening() of coupling/delta_kernel.h), and r, of second order, is mostly what
-/// is smoothed out along the sphere, once by spreading and once by interpolation. On a membrane of any shape
+/// is smoothed out along the sphere, once by spreading and once by interpolation: to leading order
+///   r_l^- = alpha h^2 (l + 2)/(2 R),   r_l^+ = alpha h^2 (l - 1)/(2 R),   alpha = m_t + (m_n - m_t)/5 - 1/20,
+/// with the second moments m of the delta function along a component and across (the last term is the grid's Laplacian; derived in
+/// tests/simulation/thickness_correction_test.cpp). On a membrane of any shape
 ///   - r multiplies the Cartesian components of the force per area, all but the mean of its normal part, which is a
 ///     pressure, by their degree; r_l is the mean of r_l^+ (2l - 1 harmonics) and r_l^- (2l + 3 harmonics);
 ///   - g multiplies the degrees of the tension, whose surface gradient is added.

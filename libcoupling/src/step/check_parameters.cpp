@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 #include "coupling/errors.h"
@@ -12,6 +11,7 @@
 #include "coupling/initial_shape.h"
 #include "coupling/marker_integrator.h"
 #include "coupling/marker_transfer.h"
+#include "coupling/mistakes.h"
 #include "coupling/parameter_table.h"
 #include "coupling/validity.h"
 #include "motion/mirror_symmetry.h"
@@ -21,31 +21,6 @@ namespace {
 
 // In lengths of the box: coordinates keep ten digits of it.
 constexpr double largest_distance = 1e6;
-
-// Mistakes, each once, gathered so that all of them are said at once.
-class Mistakes {
- public:
-  void add(const std::string& mistake) {
-    if (std::ranges::find(all_, mistake) == all_.end()) all_.push_back(mistake);
-  }
-  // Returns whether there was none.
-  bool gather(const std::function<void()>& check) {
-    try {
-      check();
-      return true;
-    } catch (const ParameterError& error) {
-      for (const std::string& mistake : error.mistakes()) add(mistake);
-      return false;
-    }
-  }
-  bool empty() const { return all_.empty(); }
-  void refuse() const {
-    if (!all_.empty()) throw ParameterError(all_);
-  }
-
- private:
-  std::vector<std::string> all_;
-};
 
 void check_ranges(const SimulationParameters& given, Mistakes& mistakes) {
   SimulationParameters parameters = given;  // visitors may change what they are shown
@@ -107,7 +82,7 @@ void check_time(const SimulationParameters& parameters) {
                                      parameters.time.end, parameters.steps(), parameters.time.step));
 }
 
-void check_time_keys(const SimulationParameters& parameters) {
+void check_marker_motion(const SimulationParameters& parameters) {
   const SimulationParameters::Time& time = parameters.time;
   if ((time.markers == MarkerMotion::arkode || time.markers == MarkerMotion::implicit) && !have_sundials())
     throw ParameterError(
@@ -140,12 +115,13 @@ void check_flow(const SimulationParameters& parameters, const Flow& flow) {
           "allowed here is {}",
           list(parameters.domain.mirror), "xyz"[axis], parameters.domain.lower[axis], list(flow.may_be_mirrored)));
   const double fastest = std::max(flow.greatest_gradient, flow.angular_frequency);
-  const auto check_step = [&](const char* key, double step) {
+  const auto check_step = [&](const char* parameter, double step) {
     if (fastest * step > validity::largest_turn_per_step)
-      throw ParameterError(fmt::format(
-          "{} = {:g}: the flow changes a velocity at a rate of up to {:.4g}, which times {} must be "
-          "<= {:g}; so {} <= {:.4g}",
-          key, step, fastest, key, validity::largest_turn_per_step, key, validity::largest_turn_per_step / fastest));
+      throw ParameterError(
+          fmt::format("{} = {:g}: the flow changes a velocity at a rate of up to {:.4g}, which times {} must be "
+                      "<= {:g}; so {} <= {:.4g}",
+                      parameter, step, fastest, parameter, validity::largest_turn_per_step, parameter,
+                      validity::largest_turn_per_step / fastest));
   };
   check_step("time.step", parameters.time.step);
   if (parameters.time.adaptive) check_step("time.largest_step", parameters.time.largest_step);
@@ -192,15 +168,15 @@ void check_gravity(const SimulationParameters& parameters) {
 }
 
 // Where the number of latitudes of vesicle i was said.
-std::string latitudes_key(const SimulationParameters& parameters, std::size_t i) {
+std::string latitudes_parameter(const SimulationParameters& parameters, std::size_t i) {
   return parameters.vesicles[i].latitudes ? fmt::format("vesicles.{}.latitudes", i) : "mesh.latitudes";
 }
 
 void check_degrees(const SimulationParameters& parameters, std::size_t i) {
-  const auto check = [&](const char* key, int degrees) {
+  const auto check = [&](const char* parameter, int degrees) {
     if (degrees > parameters.latitudes(i))
-      throw ParameterError(fmt::format("{} = {}: must be <= {} = {}", key, degrees, latitudes_key(parameters, i),
-                                       parameters.latitudes(i)));
+      throw ParameterError(fmt::format("{} = {}: must be <= {} = {}", parameter, degrees,
+                                       latitudes_parameter(parameters, i), parameters.latitudes(i)));
   };
   check("mesh.normal_degrees", parameters.mesh.normal_degrees);
   if (!parameters.follows_shape()) check("mesh.tangential_degrees", parameters.mesh.tangential_degrees);
@@ -220,22 +196,23 @@ void check_tension(const SimulationParameters& parameters) {
                     parameters.membrane.integral_rate, name(parameters.time.markers)));
 }
 
-void check_vesicle_keys(const SimulationParameters& parameters, std::size_t i) {
+void check_shape_parameters(const SimulationParameters& parameters, std::size_t i) {
   const VesicleParameters& vesicle = parameters.vesicles[i];
-  const std::string key = fmt::format("vesicles.{}", i);
+  const std::string which = fmt::format("vesicles.{}", i);
   const bool spheroid = vesicle.shape == Shape::prolate || vesicle.shape == Shape::oblate;
   const int given = (vesicle.reduced_volume ? 1 : 0) + (vesicle.aspect_ratio ? 1 : 0);
   if (spheroid && given != 1)
-    throw ParameterError(fmt::format("{}: a prolate or oblate needs reduced_volume or aspect_ratio, one of them", key));
+    throw ParameterError(
+        fmt::format("{}: a prolate or oblate needs reduced_volume or aspect_ratio, one of them", which));
   if (!spheroid && given != 0)
     throw ParameterError(
         fmt::format("{}: reduced_volume and aspect_ratio belong to prolate and oblate shapes; an "
                     "ellipsoid takes axes, a sphere nothing",
-                    key));
+                    which));
   const bool from_file = vesicle.shape == Shape::coefficients || vesicle.shape == Shape::mesh;
   const auto go_together = [&](bool shape, bool is_given, const char* what, const char* shapes) {
     if (shape != is_given)
-      throw ParameterError(fmt::format("{}: {} goes with shape = {}, and only with it", key, what, shapes));
+      throw ParameterError(fmt::format("{}: {} goes with shape = {}, and only with it", which, what, shapes));
   };
   go_together(vesicle.shape == Shape::ellipsoid, vesicle.axes.has_value(), "axes = [a, b, c]", "\"ellipsoid\"");
   go_together(vesicle.shape == Shape::harmonics, !vesicle.harmonics.empty(),
@@ -247,7 +224,7 @@ void check_vesicle_keys(const SimulationParameters& parameters, std::size_t i) {
     throw ParameterError(
         fmt::format("{}.rotation_axis = [{:g}, {:g}, {:g}]: must not vanish, nor be so long or short that "
                     "its length overflows",
-                    key, a[0], a[1], a[2]));
+                    which, a[0], a[1], a[2]));
 }
 
 // A vesicle on both sides of a plane of symmetry must be symmetric about it, markers and all. Returns how low it may reach.
@@ -317,14 +294,15 @@ void check(const SimulationParameters& parameters, const Flow& flow) {
   mistakes.gather([&] { check_domain(parameters); });
   if (parameters.vesicles.empty()) mistakes.add("vesicles: a simulation needs at least one");
   mistakes.refuse();  // what follows counts in spacings and steps
-  for (const auto check : {check_physics, check_tension, check_time, check_time_keys, check_thickness, check_gravity})
+  for (const auto check :
+       {check_physics, check_tension, check_time, check_marker_motion, check_thickness, check_gravity})
     mistakes.gather([&] { check(parameters); });
   mistakes.gather([&] { check_flow(parameters, flow); });
   bool have_shapes = true;
   for (std::size_t i = 0; i < parameters.vesicles.size(); ++i)
     have_shapes &= mistakes.gather([&] {
       check_degrees(parameters, i);
-      check_vesicle_keys(parameters, i);
+      check_shape_parameters(parameters, i);
       check_inside_box(parameters, i);
     });
   if (have_shapes) mistakes.gather([&] { check_apart(parameters); });

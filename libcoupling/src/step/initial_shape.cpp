@@ -24,8 +24,8 @@ vesicle::VectorField checked_markers(const SimulationParameters& parameters, std
     if (is_free_form) vesicle::Surface(parameters.latitudes(i)).update(markers);
     return markers;
   } catch (const std::logic_error& error) {
-    const char* key = vesicle.surface ? "surface" : vesicle.shape == Shape::harmonics ? "harmonics" : "shape";
-    throw ParameterError(fmt::format("vesicles.{}.{}: {}", i, key, error.what()));
+    const char* parameter = vesicle.surface ? "surface" : vesicle.shape == Shape::harmonics ? "harmonics" : "shape";
+    throw ParameterError(fmt::format("vesicles.{}.{}: {}", i, parameter, error.what()));
   }
 }
 

@@ -72,7 +72,8 @@ enum class RunStatus {
 /// "reduce_step" a step that cannot be taken sends the run back to its last checkpoint, from which it goes on with half
 /// the step. A run that starts from another one keeps its start in start.h5, a checkpoint from which it can be
 /// repeated.
-/// \throws SceneError for a checkpoint of another scene, or a run to start from that does not fit.
+/// \throws SceneError for a checkpoint of another scene, a run to start from that does not fit, or a solver that cannot be
+/// had.
 /// \throws FileError when a file cannot be read or written, or another run has the directory.
 /// \throws coupling::SimulationStopped with step, time, cause and last checkpoint in its message when the run cannot go
 /// on.

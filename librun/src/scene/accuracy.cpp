@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "coupling/errors.h"
 #include "coupling/flow.h"
 #include "coupling/validity.h"
-#include "run/errors.h"
 
 namespace vesiflow::run {
 namespace {
@@ -80,31 +80,30 @@ void apply_accuracy(Scene& scene) {
   scene.coupling.thickness_correction = true;
 }
 
-void check_accuracy(const Scene& scene, const std::string& name) {
+void check_accuracy(const Scene& scene) {
+  using coupling::ParameterError;
   if (scene.method.accuracy == Accuracy::as_given) return;
   if (scene.method.accuracy == Accuracy::tenth_per_mille)
-    throw SceneError(
-        fmt::format("{}: method.accuracy = \"1e-4\": no settings are known that meet it: what the runs were compared "
-                    "with is itself "
-                    "known to 1e-3 only (docs/performance.md#presets); take \"1e-3\", and compare two grids",
-                    name));
+    throw ParameterError(
+        "method.accuracy = \"1e-4\": no settings are known that meet it: what the runs were compared with is itself "
+        "known to 1e-3 only (docs/performance.md#presets); take \"1e-3\", and compare two grids");
   const std::string key =
-      fmt::format("{}: method.accuracy = \"{}\"", name, scene.method.accuracy == Accuracy::per_cent ? "1e-2" : "1e-3");
+      fmt::format("method.accuracy = \"{}\"", scene.method.accuracy == Accuracy::per_cent ? "1e-2" : "1e-3");
   if (scene.method.preset == Preset::paper)
-    throw SceneError(fmt::format("{}: is not for method.preset = \"paper\", whose settings are the paper's", key));
+    throw ParameterError(fmt::format("{}: is not for method.preset = \"paper\", whose settings are the paper's", key));
   if (scene.flow.type == FlowType::custom)
-    throw SceneError(
+    throw ParameterError(
         fmt::format("{}: knows nothing of the time scale of flow.type = \"custom\"; leave it out and give "
                     "domain.cells, mesh.latitudes and time.step",
                     key));
   if (scene.has_viscosity_contrast())
-    throw SceneError(
+    throw ParameterError(
         fmt::format("{}: no settings are known for a viscosity ratio that is not 1: the correction of the thickness "
                     "knows nothing of the layer in which the viscosity changes; leave it out, and compare two grids",
                     key));
   const double radius = coupling::largest_radius(scene);
   if (coupling::vesicle_reynolds_number(scene) > largest_reynolds_number)
-    throw SceneError(
+    throw ParameterError(
         fmt::format("{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}, or "
                     "fluid.inertia = \"none\"; leave method.accuracy out, and compare two grids",
                     key, scene.fluid.reynolds_number, largest_reynolds_number / (radius * radius)));

@@ -15,8 +15,8 @@ namespace vesiflow::run {
 /// for; nothing where there is none. The box, the flow and the vesicles must be known.
 void apply_accuracy(Scene& scene);
 
-/// \throws SceneError where no settings are known that meet the target
-void check_accuracy(const Scene& scene, const std::string& name);
+/// \throws coupling::ParameterError where no settings are known that meet the target
+void check_accuracy(const Scene& scene);
 
 /// One line for the plan: the settings, and what in the scene is coarser or beyond what was verified.
 std::string describe_accuracy(const Scene& scene);

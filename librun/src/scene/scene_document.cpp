@@ -10,8 +10,8 @@
 #include <locale>
 #include <sstream>
 
-#include "coupling/errors.h"
 #include "scene/key_suggestion.h"
+#include "scene/scene_mistakes.h"
 
 namespace vesiflow::run {
 namespace {
@@ -105,9 +105,9 @@ SceneDocument::SceneDocument(const std::string& text, std::string name, const Ov
   try {
     root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
-    mistakes_.add(fmt::format("{}:{}: not valid TOML: {}{}", name_, error.source().begin.line, error.description(),
-                              advice_on(error.description())));
-    mistakes_.refuse();
+    add_mistake(fmt::format("{}:{}: not valid TOML: {}{}", name_, error.source().begin.line, error.description(),
+                            advice_on(error.description())));
+    refuse_mistakes();
   }
   if (toml::table* single = root_["vesicles"].as_table()) {
     toml::array list;
@@ -115,6 +115,16 @@ SceneDocument::SceneDocument(const std::string& text, std::string name, const Ov
     root_.insert_or_assign("vesicles", std::move(list));
   }
   for (const std::string& item : overrides) apply(item);
+}
+
+void SceneDocument::add_mistake(std::string mistake, unsigned line) {
+  mistakes_.emplace(line, std::move(mistake));
+}
+
+void SceneDocument::refuse_mistakes() const {
+  coupling::Mistakes in_order;
+  for (const auto& [line, mistake] : mistakes_) in_order.add(mistake);
+  refuse_scene(in_order);
 }
 
 const toml::node* SceneDocument::find(const std::string& key) const {
@@ -130,23 +140,23 @@ std::string SceneDocument::where(const std::string& key, const toml::node& node)
 }
 
 void SceneDocument::refuse(const std::string& key, const toml::node& node, const std::string& allowed) {
-  mistakes_.add(fmt::format("{}: {} = {}: {}", where(key, node), key, show(node), allowed), line_of(key, node));
+  add_mistake(fmt::format("{}: {} = {}: {}", where(key, node), key, show(node), allowed), line_of(key, node));
 }
 
 void SceneDocument::refuse_unknown(const std::string& key, const toml::node& node) {
   const std::string place = where(key, node);
   const bool is_list = node.is_array_of_tables();
   if (!node.is_table() && !is_list) {
-    mistakes_.add(fmt::format("{}: {}: there is no such key{}{}", place, key, question(key), all_keys),
-                  line_of(key, node));
+    add_mistake(fmt::format("{}: {}: there is no such key{}{}", place, key, question(key), all_keys),
+                line_of(key, node));
     return;
   }
   const std::string meant = key.find('.') == std::string::npos ? suggest_table(key) : "";
   meant_tables_.insert(meant);
-  mistakes_.add(fmt::format("{}: {}: there is no such table{}{}", place,
-                            is_list ? fmt::format("[[{}]]", key) : fmt::format("[{}]", key),
-                            meant.empty() ? "" : fmt::format("; did you mean {}?", header_of(meant)), all_keys),
-                line_of(key, node));
+  add_mistake(fmt::format("{}: {}: there is no such table{}{}", place,
+                          is_list ? fmt::format("[[{}]]", key) : fmt::format("[{}]", key),
+                          meant.empty() ? "" : fmt::format("; did you mean {}?", header_of(meant)), all_keys),
+              line_of(key, node));
 }
 
 std::size_t SceneDocument::vesicle_count() const {
@@ -160,18 +170,18 @@ std::string SceneDocument::numbered(const std::string& key, const std::string& i
   const std::size_t count = vesicle_count();
   if (key == given && count == 1) return fmt::format("vesicles.0.{}", leaf);
   if (count == 0) {
-    mistakes_.add(fmt::format("--set {}: there is no [[vesicles]] in {} to set it of", item, name_));
+    add_mistake(fmt::format("--set {}: there is no [[vesicles]] in {} to set it of", item, name_));
   } else if (key == given) {
-    mistakes_.add(fmt::format(
+    add_mistake(fmt::format(
         "--set {}: which of the {} vesicles? write vesicles.0.{} for the first, to vesicles.{}.{} for the last", item,
         count, leaf, count - 1, leaf));
   } else {
     std::size_t number = count;
     std::from_chars(key.data() + of_vesicles.size(), key.data() + key.size(), number);
     if (number < count) return fmt::format("vesicles.{}.{}", number, leaf);
-    mistakes_.add(fmt::format("--set {}: there is no such vesicle in {}, whose {} vesicles.0{}", item, name_,
-                              count == 1 ? "only one is" : "vesicles are",
-                              count == 1 ? "" : fmt::format(" to vesicles.{}", count - 1)));
+    add_mistake(fmt::format("--set {}: there is no such vesicle in {}, whose {} vesicles.0{}", item, name_,
+                            count == 1 ? "only one is" : "vesicles are",
+                            count == 1 ? "" : fmt::format(" to vesicles.{}", count - 1)));
   }
   return "";
 }
@@ -180,16 +190,16 @@ void SceneDocument::apply(const std::string& item) {
   const std::size_t equals = item.find('=');
   std::string key = trimmed(item.substr(0, equals));
   if (equals == std::string::npos || key.empty()) {
-    mistakes_.add(fmt::format("--set {}: expected key=value, such as time.end=2.0", item));
+    add_mistake(fmt::format("--set {}: expected key=value, such as time.end=2.0", item));
     return;
   }
   if (is_scene_table(key)) {
-    mistakes_.add(
+    add_mistake(
         fmt::format("--set {}: {} is a table of keys: set one of them, as in time.end=2.0{}", item, key, all_keys));
     return;
   }
   if (!is_scene_key(without_number(key))) {
-    mistakes_.add(fmt::format("--set {}: there is no key {}{}{}", item, key, question(key), all_keys));
+    add_mistake(fmt::format("--set {}: there is no key {}{}{}", item, key, question(key), all_keys));
     return;
   }
   if (key.starts_with(of_vesicles) && (key = numbered(key, item)).empty()) return;

@@ -4,11 +4,11 @@
 
 #include <toml++/toml.h>
 
+#include <map>
 #include <set>
 #include <string>
 
 #include "run/scene.h"
-#include "scene/scene_mistakes.h"
 
 namespace vesiflow::run {
 
@@ -30,7 +30,10 @@ class SceneDocument {
   void refuse_unknown(const std::string& key, const toml::node& node);
 
   const std::string& name() const { return name_; }
-  SceneMistakes& mistakes() { return mistakes_; }
+  /// Adds a mistake, in a sentence. Mistakes are said in the order of their lines in the file; line 0 is before all.
+  void add_mistake(std::string mistake, unsigned line = 0);
+  /// \throws SceneError of all mistakes so far, unless there are none
+  void refuse_mistakes() const;
   /// Whether a table was probably meant to be this one.
   bool misspells(const std::string& table) const { return meant_tables_.contains(table); }
 
@@ -46,7 +49,7 @@ class SceneDocument {
   toml::table root_;
   std::set<std::string> overridden_;
   std::set<std::string> meant_tables_;
-  SceneMistakes mistakes_;
+  std::multimap<unsigned, std::string> mistakes_;  // by line
 };
 
 }  // namespace vesiflow::run

@@ -14,6 +14,7 @@
 #include "scene/accuracy.h"
 #include "scene/key_suggestion.h"
 #include "scene/scene_keys.h"
+#include "scene/scene_mistakes.h"
 #include "scene/scene_reader.h"
 #include "scene/scene_surfaces.h"
 
@@ -45,7 +46,7 @@ void read_vesicles(SceneDocument& document, Scene& scene) {
   const toml::node* node = document.find("vesicles");
   if (node == nullptr) {
     if (!document.misspells("vesicles"))
-      document.mistakes().add(fmt::format("{}: there is no [[vesicles]]; a scene needs at least one", document.name()));
+      document.add_mistake(fmt::format("{}: there is no [[vesicles]]; a scene needs at least one", document.name()));
     return;
   }
   if (!node->is_array_of_tables() || node->as_array()->empty())
@@ -86,9 +87,11 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
   visit_keys(scene, reader);
   refuse_unknown(document);
   read_vesicles(document, scene);
-  document.mistakes().refuse();
+  document.refuse_mistakes();
   if (scene.method.accuracy != Accuracy::as_given) {
-    check_accuracy(scene, name);
+    coupling::Mistakes mistakes;
+    mistakes.gather([&] { check_accuracy(scene); });
+    refuse_scene(mistakes, name);
     apply_accuracy(scene);
     visit_keys(scene, reader);  // keys that are given win
   }

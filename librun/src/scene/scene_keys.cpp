@@ -83,14 +83,14 @@ void visit_keys(coupling::VesicleParameters& vesicle, SurfaceFile& file, KeyVisi
   v.optional_integer("fit_degrees", file.fit_degrees, Range::between(2, 64));
 }
 
-void check_ranges_of_scene(const Scene& given, const std::string& name, SceneMistakes& mistakes) {
+void check_ranges_of_scene(const Scene& given, coupling::Mistakes& mistakes) {
   Scene scene = given;  // visitors may change what they are shown
   coupling::RangeCheck check;
   visit(scene.method, check);
   visit(scene.flow, check);
   visit(scene.ending, check);
   visit(scene.output, check);
-  for (const std::string& mistake : check.mistakes()) mistakes.add(fmt::format("{}: {}", name, mistake));
+  for (const std::string& mistake : check.mistakes()) mistakes.add(mistake);
 }
 
 std::string toml_number(double value) {

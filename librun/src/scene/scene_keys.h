@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "coupling/mistakes.h"
 #include "coupling/parameter_table.h"
 #include "run/scene.h"
-#include "scene/scene_mistakes.h"
 
 namespace vesiflow::run {
 
@@ -31,7 +31,7 @@ void visit_preset(Scene& scene, KeyVisitor& visitor);
 void apply_preset(Scene& scene);
 
 /// Adds what is not in its range, of the keys that only scenes have.
-void check_ranges_of_scene(const Scene& scene, const std::string& name, SceneMistakes& mistakes);
+void check_ranges_of_scene(const Scene& scene, coupling::Mistakes& mistakes);
 
 /// Every key of a scene with its value as TOML text, vesicles by number; keys without a value are absent.
 std::map<std::string, std::string> scene_values(const Scene& scene);

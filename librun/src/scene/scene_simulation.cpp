@@ -3,9 +3,12 @@
 #include "run/scene_simulation.h"
 
 #include "scene/scene_check.h"
+#include "scene/scene_mistakes.h"
 
 namespace vesiflow::run {
 namespace {
+
+constexpr const char* name = "scene";  // in messages
 
 Scene with_flow(Scene scene, FlowType type) {
   scene.flow.type = type;
@@ -17,15 +20,15 @@ coupling::Flow started(coupling::Flow flow, const Scene& scene) {
   return flow;
 }
 
-// Parameters are checked as those of a scene first, so that mistakes are said of its keys.
-const Scene& checked(const Scene& scene, const coupling::Flow& flow) {
-  check_scene(scene, flow, "scene");
+// The parameters are checked by the simulation. Where a scene has other mistakes too, all are said together.
+const Scene& with_checked_keys(const Scene& scene, const coupling::Flow& flow) {
+  if (!mistakes_of_scene_keys(scene).empty()) check_scene(scene, flow, name);
   return scene;
 }
 
 }  // namespace
 
-SceneSimulation::SceneSimulation(const Scene& scene) : SceneSimulation(scene, flow_of(scene), scene.flow.type) {}
+SceneSimulation::SceneSimulation(const Scene& scene) : SceneSimulation(scene, flow_to_check(scene), scene.flow.type) {}
 
 SceneSimulation::SceneSimulation(const Scene& scene, const fluid::BoundaryVelocity& flow, fluid::WallMotion motion)
     : SceneSimulation(scene, coupling::custom_flow(flow, motion)) {}
@@ -33,8 +36,13 @@ SceneSimulation::SceneSimulation(const Scene& scene, const fluid::BoundaryVeloci
 SceneSimulation::SceneSimulation(const Scene& scene, const coupling::Flow& flow)
     : SceneSimulation(scene, started(flow, scene), FlowType::custom) {}
 
-SceneSimulation::SceneSimulation(const Scene& scene, const coupling::Flow& flow, FlowType type)
-    : coupling::Simulation(checked(scene, flow), flow), scene_(with_flow(scene, type)) {}
+SceneSimulation::SceneSimulation(const Scene& scene, const coupling::Flow& flow, FlowType type) try : coupling
+  ::Simulation(with_checked_keys(scene, flow), flow), scene_(with_flow(scene, type)) {}
+catch (const coupling::ParameterError& error) {
+  coupling::Mistakes mistakes;
+  add_by_key(error, scene, mistakes);
+  refuse_scene(mistakes, name);
+}
 
 void SceneSimulation::set_time_step(double dt) {
   coupling::Simulation::set_time_step(dt);

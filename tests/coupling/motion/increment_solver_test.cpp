@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -97,6 +99,37 @@ TEST_F(IncrementSolverTest, SaysWhereTheSlipIsTooMuch) {
   for (auto& d : diagonal) d.damping = 0.0;
   EXPECT_THROW(solver.solve(diagonal, 1e4, slip, right_side), std::domain_error);
   EXPECT_NO_THROW(solver.solve(diagonal, 0.1, slip, right_side));
+}
+
+// A mesh that turns at the rate 1 sweeps order m by at i m. Where nothing is stiff, A = 3/2, GMRES has the spectrum 1 + i c, |c| <= 2/3 dt m, and its
+// residual is (c/(1 + sqrt(1 + c^2)))^k after k iterations to a factor of two (motion/constants.h): a step that sweeps the shortest waves over one of
+// their lengths, dt m = 2 pi, is solved to the tolerance, over two passably, over four not.
+TEST(IncrementSolver, SolvesStepsThatSweepTheShortestWavesOverTheirLength) {
+  constexpr int many = 48;
+  const vesicle::SphereGrid grid(64);
+  const vesicle::SphericalHarmonics harmonics(many, grid, 3);
+  const std::vector<IncrementSolver::Diagonal> diagonal(many, {1.5, 1.5, 0.0});
+  const Slip turning{vesicle::ScalarField::Zero(grid.size()), vesicle::ScalarField::Ones(grid.size())};
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  vesicle::Coefficients right(many, 3), result(many, 3);
+  for_each_coefficient(right, [&](auto& value, int, int) { value = {uniform(generator), uniform(generator)}; });
+  for (int f = 0; f < 3; ++f)
+    for (int n = 0; n < many; ++n) right(f, n, 0) = right(f, n, 0).real();
+  const IncrementSolver::Vector right_side = as_vector(right);
+  IncrementSolver solver(harmonics, 3, 1.0);
+  const auto residual = [&](double lengths) {
+    const double dt = 2.0 * std::numbers::pi * lengths / (many - 1);
+    as_vector(result) = solver.solve(diagonal, dt, turning, right_side);
+    for (int f = 0; f < 3; ++f)
+      for (int n = 0; n < many; ++n)
+        for (int m = 0; m <= n; ++m) result(f, n, m) *= std::complex<double>(1.5, dt * m);
+    return (as_vector(result) - right_side).norm() / right_side.norm();
+  };
+  EXPECT_LT(residual(0.1), constants::slip_tolerance);
+  EXPECT_LT(residual(1.0), constants::slip_tolerance);
+  EXPECT_LT(residual(2.0), constants::worst_slip_residual);
+  EXPECT_THROW(residual(4.0), std::domain_error);
 }
 
 TEST_F(IncrementSolverTest, ASecondSolveAllocatesNothing) {

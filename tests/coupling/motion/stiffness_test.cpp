@@ -9,7 +9,6 @@
 
 #include "motion/constants.h"
 #include "motion/surrounding_fluid.h"
-#include "motion/wave_damping.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -121,21 +120,6 @@ TEST(SurroundingFluid, OwesNothingWhereTheSolveHasAllOfTheViscosity) {
   EXPECT_EQ(fluid.lagging_overestimate(), 0.0);
   EXPECT_DOUBLE_EQ(fluid.acceleration(0.1, Bdf2::of(0.1, 0.1)), 30.0);
   EXPECT_DOUBLE_EQ(fluid.inertia_share(4.0, 1.0), 0.5);
-}
-
-TEST(WaveDamping, IsThatOfTheHighestDegreeAndFallsWithTheEighthPower) {
-  WaveDamping damping(degrees, radius);
-  damping.update(0.6);
-  EXPECT_DOUBLE_EQ(damping[degrees - 1], 16.0 * 0.6 / radius);
-  EXPECT_EQ(damping[0], 0.0);
-  EXPECT_NEAR(damping[degrees - 2] / damping[degrees - 1], std::pow((degrees - 2.0) / (degrees - 1.0), 8), 1e-12);
-  vesicle::Coefficients rates(degrees, 1), y(degrees, 1);
-  rates.set_zero();
-  y.set_zero();
-  y(0, 7, 3) = {2.0, -1.0};
-  damping.subtract_from(rates, y);
-  EXPECT_EQ(rates(0, 7, 3), -damping[7] * y(0, 7, 3));
-  EXPECT_EQ(rates(0, 6, 3), std::complex<double>());
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 
 #include "coupling/errors.h"
 #include "coupling/flow.h"
+#include "coupling/mistakes.h"
 #include "coupling/parameter_table.h"
 #include "coupling/simulation.h"
 
@@ -32,7 +34,7 @@ std::vector<std::string> mistakes_of(const SimulationParameters& parameters) {
   return {};
 }
 
-// What a program fills in is checked as what a scene file says: each of these was accepted once, or ran off an array.
+// Each of these was accepted once, or ran off an array.
 TEST(CheckParameters, RefusesWhatAProgramFillsInWrong) {
   EXPECT_EQ(mistakes_of(one_vesicle()), std::vector<std::string>{});
   const auto refusal = [](const std::function<void(SimulationParameters&)>& spoil) {
@@ -68,6 +70,21 @@ TEST(CheckParameters, GathersAllMistakes) {
   ASSERT_EQ(mistakes.size(), 3u);
   const std::string all = ParameterError(mistakes).what();
   EXPECT_TRUE(all.starts_with("3 mistakes:\n  1. mesh.latitudes = 7")) << all;
+}
+
+TEST(Mistakes, AreSaidOnceInTheOrderInWhichTheyAreFound) {
+  Mistakes mistakes;
+  EXPECT_NO_THROW(mistakes.refuse());
+  mistakes.add("second letter");
+  EXPECT_FALSE(mistakes.gather([] { throw ParameterError({"a letter", "second letter", "a word"}); }));
+  EXPECT_TRUE(mistakes.gather([] {}));
+  EXPECT_THROW(mistakes.gather([] { throw std::logic_error("no mistake of a parameter"); }), std::logic_error);
+  try {
+    mistakes.refuse();
+    FAIL() << "should have refused";
+  } catch (const ParameterError& error) {
+    EXPECT_STREQ(error.what(), "3 mistakes:\n  1. second letter\n  2. a letter\n  3. a word");
+  }
 }
 
 TEST(CheckParameters, SimulationsAreCheckedToo) {

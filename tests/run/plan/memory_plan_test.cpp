@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "run/plan.h"
+#include "support/small_scene.h"
+
 namespace vesiflow::run {
 namespace {
 
@@ -43,6 +48,12 @@ TEST(MemoryPlan, CountsTablesOncePerNumberOfLatitudes) {
   Scene mixed = without_output(32, 64, 2);
   mixed.vesicles[1].latitudes = 32;
   EXPECT_DOUBLE_EQ(membranes(mixed), one + membranes(without_output(32, 32, 1)));
+}
+
+TEST(MemoryWarning, NamesWhatASceneTakesAndWhatThereIs) {
+  EXPECT_EQ(memory_warning(coupling::small_scene()), "");
+  const std::string warning = memory_warning(coupling::small_scene({"domain.cells=2048"}));
+  EXPECT_NE(warning.find("this scene takes about"), std::string::npos) << warning;
 }
 
 }  // namespace

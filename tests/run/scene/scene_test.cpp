@@ -433,6 +433,8 @@ TEST(Scene, ABoxWithoutAVolumeIsRefusedWhateverTheFlow) {
   for (const char* type : {"duct", "plane_poiseuille", "shear"})
     expect_parts(message_of(sphere, {std::string("flow.type=") + type, "domain.upper=[100, -100, 100]"}),
                  {"domain.upper[1] = -100: must be above"});
+  expect_parts(message_of(sphere, {"flow.type=duct", "domain.lower=[-6, -1e308, -6]", "domain.upper=[6, 1e308, 6]"}),
+               {"domain.lower[1] = -1e+308", "finite"});
 }
 
 // Programs that fill a scene themselves: each of these was accepted once, and the last two ran off an array.
