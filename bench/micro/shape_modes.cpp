@@ -3,7 +3,7 @@
 
 // Relaxation rates of small shape modes of a nearly spherical vesicle against theory, for viscosity ratios and resolutions.
 //   OMP_WAIT_POLICY=passive build/release/bench/shape_modes [--cells N...] [--ratio L...] [--half B]
-// "in sphere": theory with a concentric spherical wall of radius B = 3 or 6. Tabulated in validation/viscosity_ratio.md.
+// "in sphere": theory with a concentric spherical wall of radius B = 3 or 6. Tabulated in validation/studies/viscosity_ratio.md.
 #include <chrono>
 #include <cstdio>
 #include <utility>

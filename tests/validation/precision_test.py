@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What bench/work_precision.py measures: distances of membranes, extrapolation, fronts and levels, against closed forms."""
+"""What bench/studies/work_precision.py measures: distances of membranes, extrapolation, fronts and levels, against closed forms."""
 
 import pathlib
 import sys
@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "bench")]
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "bench" / "studies")]
 from harness import spectral  # noqa: E402
 from precision import cases, errors, study  # noqa: E402
 
