@@ -10,11 +10,8 @@ resident size of the run. Writes bench/results/growth.json and docs/figures/grow
 and no picture); --docs puts the stored tables into docs/studies/growth.md. Exit code 1 if the memory of a plan is off by more than a tenth.
 """
 
-import argparse
 import json
-import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
@@ -23,7 +20,7 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "validation"))
-from harness import drawing, outputs, store, tables  # noqa: E402
+from harness import command_line, drawing, outputs, plans, runs, store, tables  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results"
 PAGE = ROOT / "docs" / "studies" / "growth.md"
@@ -61,13 +58,6 @@ checkpoint_every = 0
     return text
 
 
-def plan(program, file, threads):
-    """Planned memory in MB and milliseconds per step."""
-    command = [program, file, "--plan", "--threads", str(threads)]
-    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    return float(re.search(r"memory +about (\d+) MB", text).group(1)), 1e3 * float(re.search(r"estimate: (\S+) s per step", text).group(1))
-
-
 # A process starts with the peak of the one that it is copied from: that of a small one is below what is measured.
 LAUNCHER = """import resource, subprocess, sys
 subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)
@@ -76,9 +66,8 @@ print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"""
 
 def run(program, file, folder, threads):
     """Peak MB and the summary."""
-    environment = os.environ | {"OMP_WAIT_POLICY": "passive", "OMP_NUM_THREADS": str(threads)}
     command = [sys.executable, "-I", "-S", "-c", LAUNCHER, program, file, "--out", folder, "--quiet", "--threads", str(threads)]
-    peak = subprocess.run(command, env=environment, check=True, stdout=subprocess.PIPE, text=True).stdout
+    peak = subprocess.run(command, env=runs.environment(threads), check=True, stdout=subprocess.PIPE, text=True).stdout
     return int(peak) * 1024 / 1e6, outputs.summary(pathlib.Path(folder))
 
 
@@ -90,14 +79,14 @@ def measure(program, cells, latitudes, vesicles, threads, repetitions):
     with tempfile.TemporaryDirectory() as work:
         file = f"{work}/scene.toml"
         pathlib.Path(file).write_text(scene(cells, latitudes, vesicles, steps_for(cells)))
-        planned_memory, planned_time = plan(program, file, threads)
+        planned = plans.plan(program, file, threads=threads)
         done = [run(program, file, f"{work}/{i}", threads) for i in range(repetitions)]
     best = min((summary for _, summary in done), key=lambda summary: summary["seconds_per_step"])
     phases = best["phase_seconds"]
     fluid = sum(seconds for phase, seconds in phases.items() if phase.startswith("fluid"))
     return {"cells": cells, "latitudes": latitudes, "vesicles": vesicles, "threads": threads, "steps": best["steps"],
-            "ms": 1e3 * best["seconds_per_step"], "planned_ms": planned_time, "fluid_share": fluid / sum(phases.values()),
-            "mb": max(peak for peak, _ in done), "planned_mb": planned_memory}
+            "ms": 1e3 * best["seconds_per_step"], "planned_ms": 1e3 * planned.seconds_per_step, "fluid_share": fluid / sum(phases.values()),
+            "mb": max(peak for peak, _ in done), "planned_mb": planned.memory_mb}
 
 
 def study(program, sweeps, repetitions):
@@ -109,13 +98,18 @@ def study(program, sweeps, repetitions):
             for threads in (1, 2):
                 point = measure(program, **what, threads=threads, repetitions=repetitions)
                 found[name].append(point)
-                print(f"{name} {size}, threads {threads}: {point['ms']:.4g} ms (plan {point['planned_ms']:.4g}), "
-                      f"{point['mb']:.0f} MB (plan {point['planned_mb']:.0f})", flush=True)
+                runs.say(f"{name} {size}, threads {threads}: {point['ms']:.4g} ms (plan {point['planned_ms']:.4g}), "
+                         f"{point['mb']:.0f} MB (plan {point['planned_mb']:.0f})")
     return found
 
 
 def misses(stored):
     return [p for points in stored["sweeps"].values() for p in points if abs(p["planned_mb"] / p["mb"] - 1) > ALLOWED]
+
+
+def plan_less_use(point):
+    """Of memory."""
+    return tables.percent(point["planned_mb"], point["mb"])
 
 
 def tables_of(stored):
@@ -126,10 +120,11 @@ def tables_of(stored):
         for a, b in zip(one, two):
             order = "" if last is None else f"{np.log(a['ms'] / last['ms']) / np.log(a[name] / last[name]):.2f}"
             rows.append([a[name], a["ms"], order, a["planned_ms"], f"{100 * a['fluid_share']:.0f} %", b["ms"], a["ms"] / b["ms"],
-                         a["mb"], a["planned_mb"], f"{100 * (a['planned_mb'] / a['mb'] - 1):+.1f} %", b["mb"], f"{100 * (b['planned_mb'] / b['mb'] - 1):+.1f} %"])
+                         a["mb"], a["planned_mb"], plan_less_use(a), b["mb"], plan_less_use(b)])
             last = a
-        made.append(tables.table(f"By {TITLES[name]}", [name, "ms per step", "power", "planned", "fluid", "two threads, ms", "gain", "MB", "planned", "plan less use",
-                                                        "MB, two threads", "plan less use"], rows))
+        columns = [name, "ms per step", "power", "planned", "fluid", "two threads, ms", "gain", "MB", "planned", "plan less use",
+                   "MB, two threads", "plan less use"]
+        made.append(tables.table(f"By {TITLES[name]}", columns, rows))
     return made
 
 
@@ -153,29 +148,34 @@ def draw(stored, path):
     drawing.save(figure, path)
 
 
+def command_of(quick):
+    return "scripts/python.sh bench/studies/growth.py" + " --quick" * quick
+
+
+def stored_file(quick):
+    return RESULTS / f"growth{'.quick' * quick}.json"
+
+
 def write_docs():
-    file = next((f for f in (RESULTS / "growth.json", RESULTS / "growth.quick.json") if f.exists()), None)
-    if file is None:
+    quick = not stored_file(False).exists()
+    if quick and not stored_file(True).exists():
         return
-    stored = json.loads(file.read_text())
-    text = "\n" + "\n\n".join(tables.markdown(t) for t in tables_of(stored))
-    PAGE.write_text(tables.insert(PAGE.read_text(), {"growth": f"{text}\n\n`{stored['command']}`, {stored['machine']}.\n"}))
+    stored = json.loads(stored_file(quick).read_text())
+    tables.write_into(PAGE, {"growth": tables.block(tables_of(stored), f"`{command_of(quick)}`, {stored['machine']}.")})
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("--quick", action="store_true", help="small sizes, once")
-    parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies/growth.md, without measuring")
     options = parser.parse_args()
     if options.docs:
         write_docs()
         return 0
-    found = study(str(ROOT / options.apps / "vesicles"), QUICK if options.quick else SWEEPS, 1 if options.quick else 3)
-    stored = {"command": "scripts/python.sh bench/studies/growth.py" + " --quick" * options.quick, "git_revision": store.revision(), "machine": store.processor(),
+    found = study(str(command_line.program(options)), QUICK if options.quick else SWEEPS, 1 if options.quick else 3)
+    stored = {"command": command_of(options.quick), "git_revision": store.revision(), "machine": store.processor(),
               "sweeps": outputs.rounded(found, 5)}
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / f"growth{'.quick' * options.quick}.json").write_text(store.compact(stored) + "\n")
+    store.write(stored_file(options.quick), stored)
     for table in tables_of(stored):
         print(tables.text(table))
     if not options.quick:

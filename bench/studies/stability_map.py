@@ -13,37 +13,37 @@ on: results are in out/stability. --docs puts the stored tables, the full ones w
 docs/studies/stability_maps.md.
 """
 
-import argparse
 import json
 import math
 import pathlib
-import signal
 import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "validation"))
 
-from harness import outputs, runs, tables  # noqa: E402
-from harness.store import compact, machine, revision, seconds  # noqa: E402
+from harness import command_line, outputs, plans, runs, store, tables  # noqa: E402
+from harness.store import machine, revision, seconds  # noqa: E402
 from stability import long_runs, maps, picture, verdicts  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results" / "stability"
 FIGURES = ROOT / "docs" / "figures"
 PAGE = ROOT / "docs" / "studies" / "stability_maps.md"
 NAMES = [*maps.ALL, long_runs.NAME]
+LEVELS = ("quick", "full")
 
 
-def show(line):
-    print(line, flush=True)
+def command_of(name, level):
+    return f"scripts/python.sh bench/studies/stability_map.py {name}" + " --quick" * (level == "quick")
 
 
 def carry_out(what, level, program, jobs):
     quick = level == "quick"
     wanted = {cell: what.run(*cell, quick) for cell in what.cells(quick)}
-    plans = {cell: verdicts.plan(run, program) for cell, run in wanted.items()}
-    runs.execute_all([run for cell, run in wanted.items() if not plans[cell]["refused"]], program, jobs, show)
-    measured = {cell: verdicts.measures(run.folder()) for cell, run in wanted.items() if not plans[cell]["refused"]}
+    planned = {cell: plans.plan(program, run.scene, run.settings()) for cell, run in wanted.items()}
+    accepted = {cell: run for cell, run in wanted.items() if not planned[cell].refused}
+    runs.execute_all(list(accepted.values()), program, jobs)
+    measured = {cell: verdicts.measures(run.folder()) for cell, run in accepted.items()}
     quietest = {}
     for cell, values in measured.items():
         problem = what.same_problem(*cell)
@@ -52,8 +52,9 @@ def carry_out(what, level, program, jobs):
     cells = []
     for cell, run in wanted.items():
         panel, x, y = cell
-        limit = plans[cell]["convection"]
-        entry = {"panel": panel, "x": x, "y": y, "verdict": verdicts.REFUSED, "warnings": plans[cell]["warnings"], "refused": plans[cell]["refused"],
+        plan = planned[cell]
+        limit = plan.longest_step
+        entry = {"panel": panel, "x": x, "y": y, "verdict": verdicts.REFUSED, "warnings": plan.warnings, "refused": plan.refused,
                  "convection": limit, "recommended": bool(what.recommended(panel, x, y, limit or math.inf))}
         if cell in measured:
             entry |= {"verdict": verdicts.judge(measured[cell], quietest.get(what.same_problem(*cell), 0.0))} | measured[cell]
@@ -74,13 +75,15 @@ def counts(what, cells):
         many = lambda some: [str(sum(cell["verdict"] == kind for cell in some)) for kind in kinds]  # noqa: E731
         rows.append([panel, ", ".join(many(own)), ", ".join(many(inside)), str(len(unwarned))])
     names = ", ".join(kinds)
-    return tables.table(what.title[0].upper() + what.title[1:], ["", f"all: {names}", "recommended region: the same", "blown up without a warning of the plan"], rows)
+    columns = ["", f"all: {names}", "recommended region: the same", "blown up without a warning of the plan"]
+    return tables.table(what.title[0].upper() + what.title[1:], columns, rows)
 
 
 def exceptions(cells):
     """A table: what did not stay stable inside the recommended region."""
     some = [cell for cell in cells if cell["recommended"] and cell["verdict"] != verdicts.STABLE]
-    rows = [[cell["panel"], str(cell["x"]), str(cell["y"]), cell["verdict"] + (f" at t = {cell['time']:.2g}" if cell["verdict"] == verdicts.BLOWN_UP else ""),
+    rows = [[cell["panel"], str(cell["x"]), str(cell["y"]),
+             cell["verdict"] + (f" at t = {cell['time']:.2g}" if cell["verdict"] == verdicts.BLOWN_UP else ""),
              tables.number(cell.get("divergence"), 2), tables.number(cell.get("jitter"), 2), "yes" if cell["warnings"] else "no"] for cell in some]
     return rows
 
@@ -89,8 +92,7 @@ def stored(what, level, cells):
     header = ["", what.x.label, what.y.label, "verdict", "surface divergence", "jitter, degrees", "warned"]
     rows = exceptions(cells)
     of_tables = [counts(what, cells)] + ([tables.table("Not stable inside the recommended region", header, rows)] if rows else [])
-    flag = " --quick" if level == "quick" else ""
-    return {"map": what.name, "level": level, "title": what.title, "command": f"scripts/python.sh bench/studies/stability_map.py {what.name}{flag}",
+    return {"map": what.name, "level": level, "title": what.title, "command": command_of(what.name, level),
             "source": what.source, "git_revision": revision(), "machine": machine(),
             "cpu_seconds": round(sum(cell.get("cpu_seconds", 0.0) for cell in cells), 1),
             "values": {"tables": of_tables}, "cells": {f"{c['panel']} | {c['x']} | {c['y']}": outputs.rounded(c, 4) for c in cells}}
@@ -98,11 +100,10 @@ def stored(what, level, cells):
 
 def carry_out_long(level, program, jobs):
     wanted = long_runs.runs_of(level == "quick")
-    runs.execute_all(list(wanted.values()), program, jobs, show)
+    runs.execute_all(list(wanted.values()), program, jobs)
     values = {name: long_runs.measures(run.folder()) for name, run in wanted.items()}
     origin = {name: runs.provenance(run) for name, run in wanted.items()}
-    flag = " --quick" if level == "quick" else ""
-    return {"map": "long", "level": level, "title": long_runs.TITLE, "command": f"scripts/python.sh bench/studies/stability_map.py long{flag}", "source": "",
+    return {"map": "long", "level": level, "title": long_runs.TITLE, "command": command_of(long_runs.NAME, level), "source": "",
             "git_revision": revision(), "machine": machine(), "cpu_seconds": round(sum(run["cpu_seconds"] for run in origin.values()), 1),
             "runs": origin, "values": {"tables": [long_runs.of_table(values)]}, "cells": outputs.rounded(values, 6)}
 
@@ -114,35 +115,29 @@ def is_finest(name, level):
 def write_docs():
     blocks, rows = {}, []
     for name in NAMES:
-        levels = {level: json.loads(file.read_text()) for level in ("quick", "full") if (file := RESULTS / f"{name}.{level}.json").exists()}
+        levels = {level: json.loads(file.read_text()) for level in LEVELS if (file := RESULTS / f"{name}.{level}.json").exists()}
         if not levels:
             continue
-        best = levels.get("full") or levels["quick"]
-        blocks[name] = "\n" + "\n\n".join(tables.markdown(t) for t in best["values"]["tables"])
-        blocks[name] += f"\n\n`{best['command']}`, {len(best['cells'])} runs, {seconds(best['cpu_seconds'])} of one core"
-        blocks[name] += f"; recommended: {best['source']}.\n" if best["source"] else ".\n"
-        rows.append([name, best["title"], *(seconds(levels[level]["cpu_seconds"]) if level in levels else "not run" for level in ("quick", "full"))])
-    blocks["times"] = "\n" + tables.markdown(tables.table("", ["map", "what", "quick", "full"], rows)) + "\n"
-    PAGE.write_text(tables.insert(PAGE.read_text(), blocks))
+        level = "full" if "full" in levels else "quick"
+        best = levels[level]
+        source = f"`{command_of(name, level)}`, {len(best['cells'])} runs, {seconds(best['cpu_seconds'])} of one core"
+        blocks[name] = tables.block(best["values"]["tables"], source + (f"; recommended: {best['source']}." if best["source"] else "."))
+        rows.append([name, best["title"], *(seconds(levels[level]["cpu_seconds"] if level in levels else None) for level in LEVELS)])
+    blocks["times"] = tables.block([tables.table("", ["map", "what", *LEVELS], rows)])
+    tables.write_into(PAGE, blocks)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__, jobs=True)
     parser.add_argument("maps", nargs="*", metavar="MAP", help=f"all, {', '.join(NAMES)}")
     parser.add_argument("--quick", dest="level", action="store_const", const="quick", default="full", help="fewer cells of each map")
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1)")
-    parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies/stability_maps.md")
     options = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
-    unknown = [name for name in options.maps if name != "all" and name not in NAMES]
-    if unknown:
-        parser.error(f"unknown map {unknown[0]}: one of all, {', '.join(NAMES)}")
-    program = ROOT / options.apps / "vesicles"
-    RESULTS.mkdir(parents=True, exist_ok=True)
-    for name in NAMES if "all" in options.maps else options.maps:
+    runs.stop_when_told()
+    program = command_line.program(options)
+    for name in command_line.chosen(parser, options.maps, NAMES, "map"):
         start, figure = time.monotonic(), FIGURES / f"stability_{name}.png"
-        show(f"== {name} ({options.level}): {long_runs.TITLE if name == long_runs.NAME else maps.ALL[name].title}")
+        runs.say(f"== {name} ({options.level}): {long_runs.TITLE if name == long_runs.NAME else maps.ALL[name].title}")
         if name == long_runs.NAME:
             result = carry_out_long(options.level, program, options.jobs)
             draw = lambda: long_runs.draw(result["cells"], figure)  # noqa: E731
@@ -150,12 +145,12 @@ def main():
             cells = carry_out(maps.ALL[name], options.level, program, options.jobs)
             result = stored(maps.ALL[name], options.level, cells)
             draw = lambda: picture.draw(maps.ALL[name], cells, figure)  # noqa: E731
-        (RESULTS / f"{name}.{options.level}.json").write_text(compact(result) + "\n")
+        store.write(RESULTS / f"{name}.{options.level}.json", result)
         for each in result["values"]["tables"]:
             print(tables.text(each))
         if is_finest(name, options.level):
             draw()
-        show(f"   {time.monotonic() - start:.0f} s")
+        runs.say(f"   {time.monotonic() - start:.0f} s")
     if options.docs:
         write_docs()
     if not (options.maps or options.docs):

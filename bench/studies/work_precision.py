@@ -6,26 +6,22 @@
 usage: scripts/python.sh bench/studies/work_precision.py CASE... [--quick] [--jobs N] [--apps FOLDER] [--docs]
        scripts/python.sh bench/studies/work_precision.py --list | --estimate
 
-CASE is one of tank_treading, ratio_5, ratio_20, relaxation, duct, extension, unseen and unseen_tilted (what method.accuracy chooses, on scenes that were
-not used to choose it), or all. Writes bench/results/work_precision/CASE.json (CASE.quick.json
-with --quick: coarser references and fewer runs) and docs/figures/work_precision_CASE.png; --docs puts the stored tables into
+CASE is one of tank_treading, ratio_5, ratio_20, relaxation, duct, extension, unseen and unseen_tilted (what method.accuracy chooses, on
+scenes that were not used to choose it), or all. Writes bench/results/work_precision/CASE.json (CASE.quick.json with --quick: coarser
+references and fewer runs) and docs/figures/work_precision_CASE.png; --docs puts the stored tables into
 docs/studies/work_precision.md. Runs have one thread each and are kept in out/validation: what is done is not run again, and what was
 interrupted goes on from its checkpoint. Seconds are of the processor, of whole runs with start and output: on shared cores they vary by a fifth.
 --list shows the cases, --estimate what their runs will take by the plan's model.
 """
 
-import argparse
 import json
 import pathlib
-import re
-import signal
-import subprocess
 import sys
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "validation"))
-from harness import outputs, runs, store, tables  # noqa: E402
+from harness import command_line, outputs, plans, runs, store, tables  # noqa: E402
 from precision import cases, report, study  # noqa: E402
 
 RESULTS = ROOT / "bench" / "results" / "work_precision"
@@ -36,23 +32,26 @@ def stored_file(name, quick):
     return RESULTS / f"{name}{'.quick' if quick else ''}.json"
 
 
+def command_of(name, quick):
+    return f"scripts/python.sh bench/studies/work_precision.py {name}" + " --quick" * quick
+
+
 def carry_out(name, options):
     case = cases.load(name, options.quick)
-    print(f"== {name}{' (quick)' if options.quick else ''}: {case.title}", flush=True)
+    runs.say(f"== {name}{' (quick)' if options.quick else ''}: {case.title}")
     start = time.monotonic()
     wanted = case.runs()
     # The longest first: with several jobs they end together.
     order = sorted(wanted.values(), key=lambda run: -cost(run))
-    runs.execute_all(order, ROOT / options.apps / "vesicles", options.jobs, lambda line: print(line, flush=True))
-    result = {"case": name, "title": case.title, "command": f"scripts/python.sh bench/studies/work_precision.py {name}{' --quick' if options.quick else ''}",
+    runs.execute_all(order, command_line.program(options), options.jobs)
+    result = {"case": name, "title": case.title, "command": command_of(name, options.quick),
               "git_revision": store.revision(), "machine": store.machine()} | study.evaluate(case, wanted)
-    RESULTS.mkdir(parents=True, exist_ok=True)
-    stored_file(name, options.quick).write_text(store.compact(outputs.rounded(result, 5)) + "\n")
+    store.write(stored_file(name, options.quick), outputs.rounded(result, 5))
     for stored in report.tables_of(result):
         print(tables.text(stored))
     if not options.quick or not stored_file(name, False).exists():
         report.draw(result, ROOT / "docs" / "figures" / f"work_precision_{name}.png")
-    print(f"   {time.monotonic() - start:.0f} s", flush=True)
+    runs.say(f"   {time.monotonic() - start:.0f} s")
 
 
 def cost(run):
@@ -62,17 +61,15 @@ def cost(run):
 
 
 def step_of(run):
-    part = str(run.keys.get("time.step", "1/48")).split("/")
-    return float(part[0]) / (float(part[1]) if len(part) == 2 else 1.0)
+    return runs.number(run.keys.get("time.step", "1/48"))
 
 
 def estimate(name, options):
     """Processor minutes by the model of docs/plan.md, without what is done."""
     total = 0.0
     for run in case_runs(name, options.quick):
-        command = [str(ROOT / options.apps / "vesicles"), run.scene, "--plan"] + [a for s in run.settings() for a in ("--set", s)]
-        plan = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-        total += float(re.search(r"estimate: (\S+) s per step", plan).group(1)) * run.keys["time.end"] / step_of(run)
+        plan = plans.plan(command_line.program(options), run.scene, run.settings())
+        total += plan.seconds_per_step * run.keys["time.end"] / step_of(run)
     return total / 60
 
 
@@ -84,31 +81,26 @@ def case_runs(name, quick):
 def write_docs():
     blocks = {}
     for name in cases.BUILDERS:
-        file = next((f for f in (stored_file(name, False), stored_file(name, True)) if f.exists()), None)
-        if file is None:
+        quick = not stored_file(name, False).exists()
+        if quick and not stored_file(name, True).exists():
             continue
-        stored = json.loads(file.read_text())
-        blocks[f"work_precision_{name}"] = "\n" + "\n\n".join(tables.markdown(t) for t in report.tables_of(stored)) + f"\n\n{report.source(stored)}\n"
-    PAGE.write_text(tables.insert(PAGE.read_text(), blocks))
+        stored = json.loads(stored_file(name, quick).read_text())
+        blocks[f"work_precision_{name}"] = tables.block(report.tables_of(stored), report.source(stored, command_of(name, quick)))
+    tables.write_into(PAGE, blocks)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__, jobs=True)
     parser.add_argument("cases", nargs="*", help="names of cases, or all")
     parser.add_argument("--quick", action="store_true", help="coarser references, fewer runs")
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1)")
-    parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--list", action="store_true", help="list the cases")
     parser.add_argument("--estimate", action="store_true", help="what the runs that are missing will take")
     parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies/work_precision.md")
     options = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
-    unknown = [name for name in options.cases if name != "all" and name not in cases.BUILDERS]
-    if unknown:
-        parser.error(f"unknown case {unknown[0]}: one of all, {', '.join(cases.BUILDERS)}")
+    runs.stop_when_told()
     if not (options.cases or options.list or options.estimate or options.docs):
         parser.error("name a case, or --list")
-    chosen = list(cases.BUILDERS) if "all" in options.cases or not options.cases else options.cases
+    chosen = command_line.chosen(parser, options.cases or ["all"], cases.BUILDERS, "case")
     if options.list:
         for name in cases.BUILDERS:
             print(f"{name:15s} {cases.load(name, options.quick).title}")

@@ -44,6 +44,16 @@ def text(stored):
     return "\n".join([stored["title"]] + ["  " + "  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in cells])
 
 
+def block(stored, source=""):
+    """Tables and the line that says where they come from, as they stand in a page."""
+    return "\n" + "\n\n".join(markdown(one) for one in stored) + "\n" + (f"\n{source}\n" if source else "")
+
+
+def write_into(page, blocks):
+    """insert() into the file of a page."""
+    page.write_text(insert(page.read_text(), blocks))
+
+
 def insert(document, blocks):
     """Replaces what is between <!-- results NAME --> and <!-- end -->; blocks: text by name."""
 

@@ -5,14 +5,13 @@
 
 usage: scripts/python.sh validation/robustness/bits.py --apps FOLDER [--before FOLDER] [--steps N] [--scenes NAME ...] [--threads N]
 
-Runs each scene of scenes/ for a few steps with the app `vesicles` of --apps and prints a checksum (SHA-256) of all numbers of its final checkpoint and
-of diagnostics.csv. With --before the same with the apps of another build, for the same processor: exit code 1 if a scene differs. Bits depend on the processor that is compiled for, so
-checksums are compared between builds and not stored. Scenes are cut to small grids unless --full: what is compared is the code, not the physics.
+Runs each scene of scenes/ for a few steps with the app `vesicles` of --apps and prints a checksum (SHA-256) of all numbers of its final
+checkpoint and of diagnostics.csv. With --before the same with the apps of another build, for the same processor: exit code 1 if a scene
+differs. Bits depend on the processor that is compiled for, so checksums are compared between builds and not stored. Scenes are cut to small
+grids unless --full: what is compared is the code, not the physics.
 """
 
-import argparse
 import hashlib
-import os
 import pathlib
 import subprocess
 import sys
@@ -21,7 +20,9 @@ import tomllib
 
 import h5py
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line, runs  # noqa: E402
+from harness.runs import ROOT  # noqa: E402
 
 
 def scenes(names):
@@ -33,12 +34,8 @@ def scenes(names):
 
 
 def step_of(scene):
-    """time.step as a scene writes it, a number or a fraction in quotes; the default of docs/scene.md otherwise."""
-    step = scene.get("time", {}).get("step", 1.0 / 192.0 if scene.get("method", {}).get("preset") == "paper" else 1.0 / 48.0)
-    if isinstance(step, str):
-        above, below = step.split("/")
-        return float(above) / float(below)
-    return float(step)
+    """time.step of a scene; the default of docs/scene.md where it has none."""
+    return runs.number(scene.get("time", {}).get("step", "1/192" if scene.get("method", {}).get("preset") == "paper" else "1/48"))
 
 
 def checksum(folder):
@@ -60,7 +57,8 @@ def state_after(apps, file, steps, threads, full):
     with open(file, "rb") as stream:
         scene = tomllib.load(stream)
     step = step_of(scene)
-    settings = [f"time.end={steps * step!r}", f"output.diagnostics_every={step!r}", "output.vesicle_every=0", "output.fluid_every=0", "output.checkpoint_every=1e9"]
+    settings = [f"time.end={steps * step!r}", f"output.diagnostics_every={step!r}", "output.vesicle_every=0", "output.fluid_every=0",
+                "output.checkpoint_every=1e9"]
     cells = scene.get("domain", {}).get("cells", 64)
     if not full and "accuracy" not in scene.get("method", {}):
         cells = cells if isinstance(cells, list) else [cells] * 3
@@ -70,14 +68,14 @@ def state_after(apps, file, steps, threads, full):
         command = [str(apps / "vesicles"), str(file), "--quiet", "--out", folder, "--threads", str(threads)]
         for setting in settings:
             command += ["--set", setting]
-        run = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"OMP_WAIT_POLICY": "passive"})
+        run = subprocess.run(command, capture_output=True, text=True, env=runs.environment(threads))
         if run.returncode != 0:
             return f"exit code {run.returncode}: {(run.stderr.strip().splitlines() or [''])[-1]}"
         return checksum(pathlib.Path(folder))
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser = command_line.parser(__doc__, apps=False)
     parser.add_argument("--apps", type=pathlib.Path, required=True, help="folder of the built apps")
     parser.add_argument("--before", type=pathlib.Path, help="folder of the apps of another build to compare with")
     parser.add_argument("--steps", type=int, default=12)

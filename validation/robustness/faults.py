@@ -11,12 +11,10 @@ root; without it they are skipped, with a message, and a limit of the size of fi
 wrong. --store writes validation/results/faults.json.
 """
 
-import argparse
 import collections
 import contextlib
 import os
 import pathlib
-import re
 import resource
 import subprocess
 import sys
@@ -26,7 +24,7 @@ import time
 import kills
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from harness import store, written  # noqa: E402
+from harness import command_line, plans, store, written  # noqa: E402
 from harness.runs import ROOT  # noqa: E402
 
 RESULT = ROOT / "validation" / "results" / "faults.json"
@@ -140,12 +138,12 @@ def few_descriptors(study):
 
 def little_memory(study, count):
     """From what the libraries alone need to what the run takes."""
-    settings = ["--set", "domain.cells=64", "--set", "mesh.latitudes=24", "--set", "time.end=2/32"]
-    plan = subprocess.run([study.program, study.scene, *settings, "--plan"], check=True, capture_output=True, text=True).stdout
-    planned = int(re.search(r"memory +about (\d+) MB", plan).group(1))
+    settings = ["domain.cells=64", "mesh.latitudes=24", "time.end=2/32"]
+    planned = plans.plan(study.program, study.scene, settings).memory_mb
     for number, megabytes in enumerate(between(95, 90 + planned, count)):
         folder = study.work / f"memory_{number}"
-        code, message = study.execute([*study.start(folder), *settings], [(resource.RLIMIT_AS, megabytes << 20)])
+        more = [word for setting in settings for word in ("--set", setting)]
+        code, message = study.execute([*study.start(folder), *more], [(resource.RLIMIT_AS, megabytes << 20)])
         study.note("little memory", code, message, [OUT_OF_MEMORY, FILE_ERROR], ["out of memory", "Cannot allocate memory"])
         study.problems += [f"little memory: {p}" for p in written.problems(folder)] if folder.exists() else []
 
@@ -163,15 +161,13 @@ def mounted(folder, options):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
+    parser = command_line.parser(__doc__)
     parser.add_argument("--short", action="store_true", help="three of each, without mounting")
     parser.add_argument("--store", action="store_true", help="write validation/results/faults.json")
     options = parser.parse_args()
-    program = (ROOT / options.apps).resolve() / "vesicles"
     start = time.monotonic()
     with tempfile.TemporaryDirectory() as name:
-        study = Study(program, pathlib.Path(name))
+        study = Study(command_line.program(options), pathlib.Path(name))
         few_descriptors(study)
         limited_files(study, 3 if options.short else 15)
         if not options.short:
@@ -190,7 +186,7 @@ def main():
             "git_revision": store.revision(), "machine": store.machine(), "wall_seconds": round(time.monotonic() - start),
             "values": {"seen": dict(sorted(study.seen.items())), "problems": study.problems},
         }
-        RESULT.write_text(store.compact(result) + "\n")
+        store.write(RESULT, result)
     sys.exit(1 if study.problems else 0)
 
 

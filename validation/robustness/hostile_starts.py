@@ -7,11 +7,10 @@ docs/studies/hostile_starts.md.
 usage: scripts/python.sh validation/robustness/hostile_starts.py [--jobs N] [--apps build/release/apps] [--docs]
 
 "Right" is measured against the same scene on a grid twice as fine (or the one the case names). Results are in out/hostile, the table in
-validation/results/hostile_starts.json; --docs puts it into docs/studies/hostile_starts.md. What has been run is not run again. tests/simulation/hostile_starts_test.cpp has
-the quick ones.
+validation/results/hostile_starts.json; --docs puts it into docs/studies/hostile_starts.md. What has been run is not run again.
+tests/simulation/hostile_starts_test.cpp has the quick ones.
 """
 
-import argparse
 import dataclasses
 import json
 import pathlib
@@ -21,7 +20,7 @@ import sys
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from harness import outputs, runs, tables  # noqa: E402
+from harness import command_line, outputs, plans, runs, tables  # noqa: E402
 from harness.runs import ROOT, Run  # noqa: E402
 
 STORE = ROOT / "out" / "hostile"
@@ -65,7 +64,8 @@ CASES = [
     Case("a vesicle 1.7 spacings off a wall", NEAR_WALL | {"vesicles.0.centre": [0, 0, 1.3]}, says="is not resolved below 2 h",
          finer={"domain.cells": [96, 32, 64], "mesh.latitudes": 40}),
     Case("a vesicle that gravity drives into a wall", NEAR_WALL | {"vesicles.0.centre": [0, 0, 1.1], "gravity.acceleration": [0, 0, 20],
-                                                                   "vesicles.0.density_difference": 1, "time.end": 5}, says="grid spacings to the wall"),
+                                                                   "vesicles.0.density_difference": 1, "time.end": 5},
+         says="grid spacings to the wall"),
     Case("two vesicles that overlap", pair(-0.1), PAIR, says="overlap"),
     Case("two vesicles 0.3 h apart", pair(0.06), PAIR, says="is not resolved below 2 h", finer=FINE_PAIR),
     Case("two vesicles 1.5 h apart", pair(0.28), PAIR, says="is not resolved below 2 h", finer=FINE_PAIR),
@@ -85,6 +85,7 @@ CASES = [
     Case("`euler` at g = 17", SMALL | {"time.markers": "euler", "time.step": "1/192", "membrane.sigma0": 2448}, says="far beyond"),
     Case("`ab2` at g = 4.2", SMALL | {"time.markers": "ab2", "time.step": "1/192", "membrane.sigma0": 600}, says="WARNING: beyond it"),
 ]
+KEEPS = "a restart keeps everything"
 RESTARTS = [("a restart with another Reynolds number", {"fluid.reynolds_number": 1.0}), ("a restart with the flow turned round", {"flow.rate": -1.0})]
 
 
@@ -98,23 +99,23 @@ def invoke(program, run, *more):
 def compare(coarse, fine):
     """Of the first vesicle at the end: inclination in degrees, frequency in per cent, centre."""
     a, b = (outputs.summary(folder)["vesicles"][0] for folder in (coarse, fine))
-    turn = (a["inclination_angle_deg"] - b["inclination_angle_deg"] + 90) % 180 - 90
-    return {"inclination_deg": turn, "frequency_percent": 100 * (a["tank_treading_frequency"] / b["tank_treading_frequency"] - 1),
+    return {"inclination_deg": outputs.turned(a["inclination_angle_deg"] - b["inclination_angle_deg"]),
+            "frequency_percent": 100 * (a["tank_treading_frequency"] / b["tank_treading_frequency"] - 1),
             "centre": float(np.linalg.norm(np.subtract(a["centroid"], b["centroid"]))), "divergence": a["surface_divergence_max"]}
 
 
 def carry_out(case, program, jobs):
     run = Run(case.name, case.scene, case.keys, store=STORE)
-    plan = invoke(program, run, "--plan")
-    said = plan.stdout + plan.stderr
+    plan = plans.plan(program, run.scene, run.settings())
+    said = plan.text + plan.errors
     found = {"case": case.name, "command": run.command("build/release/apps/vesicles"), "says": case.says, "verdicts": []}
-    if plan.returncode == 2:
+    if plan.refused:
         found["verdicts"].append("refused")
     else:
         wanted = [run] + ([Run(f"{case.name}, reference", case.scene, case.keys | case.finer, store=STORE)] if case.finer else [])
-        runs.execute_all(wanted, program, jobs, lambda line: print(line, flush=True))
+        runs.execute_all(wanted, program, jobs)
         said += (run.folder() / "log.txt").read_text()
-        if any("WARNING" in line for line in plan.stdout.splitlines()) or "warning" in (run.folder() / "log.txt").read_text():
+        if plan.warnings or "warning" in (run.folder() / "log.txt").read_text():
             found["verdicts"].append("warned")
         summary = outputs.summary(run.folder())
         if summary["status"] != "completed":
@@ -131,12 +132,12 @@ def carry_out(case, program, jobs):
 
 def restarts(program):
     base = Run("restart", SINGLE, SMALL | {"output.checkpoint_every": 1, "time.end": "1/24"}, keep_checkpoint=True, store=STORE)
-    runs.execute_all([base], program, 1, lambda line: print(line, flush=True))
+    runs.execute_all([base], program, 1)
     for name, keys in RESTARTS:
         run = Run(name, SINGLE, base.keys | keys | {"time.end": 1}, store=STORE)
         result = invoke(program, run, "--restart", str(base.folder() / "checkpoint.h5"), "--out", str(run.folder()))
-        yield {"case": name, "verdicts": ["refused" if result.returncode == 2 else f"exit code {result.returncode}"], "says": "a restart keeps everything",
-               "said": "a restart keeps everything" in result.stderr}
+        yield {"case": name, "verdicts": ["refused" if result.returncode == plans.BAD_INPUT else f"exit code {result.returncode}"],
+               "says": KEEPS, "said": KEEPS in result.stderr}
 
 
 def table_of(results):
@@ -149,18 +150,16 @@ def table_of(results):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--apps", default="build/release/apps")
+    parser = command_line.parser(__doc__, jobs=True)
     parser.add_argument("--docs", action="store_true", help="put the table into docs/studies/hostile_starts.md")
     options = parser.parse_args()
-    program = ROOT / pathlib.Path(options.apps) / "vesicles"
+    program = command_line.program(options)
     results = [carry_out(case, program, options.jobs) for case in CASES] + list(restarts(program))
     RESULT.write_text(json.dumps(outputs.rounded(results, 4), indent=1) + "\n")
     stored = table_of(results)
     print(tables.text(stored))
     if options.docs:
-        PAGE.write_text(tables.insert(PAGE.read_text(), {"hostile": "\n" + tables.markdown(stored) + "\n"}))
+        tables.write_into(PAGE, {"hostile": tables.block([stored])})
     silent = [found["case"] for found in results if not found["said"]]
     if silent:
         raise SystemExit(f"without the words that were expected: {', '.join(silent)}")

@@ -7,16 +7,13 @@ usage: scripts/python.sh validation/robustness/kills.py [--count N] [--apps FOLD
 
 Runs of tiny scenes write every file in every step. Each is sent SIGKILL at a random moment, restarted from its last checkpoint (or
 from its scene, if there is none yet), killed again, and so on, until it is through. After each kill: every file that is there opens and is
-complete as far as it says, and what a checkpoint counts on is there. At the end: checkpoint, table and snapshots are the same bits as those of a run without
-kills. Exit code 1 if anything was lost. --store writes validation/results/kills.json.
+complete as far as it says, and what a checkpoint counts on is there. At the end: checkpoint, table and snapshots are the same bits as those
+of a run without kills. Exit code 1 if anything was lost. --store writes validation/results/kills.json.
 """
 
-import argparse
 import collections
-import json
 import pathlib
 import random
-import resource
 import shutil
 import subprocess
 import sys
@@ -24,7 +21,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from harness import store, written  # noqa: E402
+from harness import command_line, runs, store, written  # noqa: E402
 from harness.runs import ROOT  # noqa: E402
 
 RESULT = ROOT / "validation" / "results" / "kills.json"
@@ -140,10 +137,9 @@ def references(program, work):
     result = {}
     for number, variant in enumerate(VARIANTS):
         folder = work / f"reference_{number}"
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        before = runs.children_seconds()
         subprocess.run(list(map(str, start_command(program, work / "scene.toml", variant, folder))), check=True)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        result[variant] = folder, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        result[variant] = folder, runs.children_seconds() - before
         problems = written.problems(folder)
         if problems:
             sys.exit(f"a run without kills is not whole: {problems}")
@@ -176,15 +172,13 @@ def study(program, count, seed, report):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__)
     parser.add_argument("--count", type=int, default=200, help="kills in all (default 200)")
-    parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--store", action="store_true", help="write validation/results/kills.json")
     options = parser.parse_args()
-    program = (ROOT / options.apps).resolve() / "vesicles"
     start = time.monotonic()
-    found = study(program, options.count, options.seed, lambda line: print(line, flush=True))
+    found = study(command_line.program(options), options.count, options.seed, runs.say)
     for moment, number in found["killed"].items():
         print(f"  {number:4d} {moment}")
     print("\n".join(found["problems"]) or "nothing lost, the same bits")
@@ -195,7 +189,7 @@ def main():
             "git_revision": store.revision(), "machine": store.machine(),
             "wall_seconds": round(time.monotonic() - start), "values": found,
         }
-        RESULT.write_text(store.compact(result) + "\n")
+        store.write(RESULT, result)
     sys.exit(1 if found["problems"] else 0)
 
 

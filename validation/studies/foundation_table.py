@@ -2,18 +2,16 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of validation/studies/foundation.sh: what the runs found beside what is expected, and with what tolerance."""
-import json
+import pathlib
 import sys
-from pathlib import Path
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line, outputs  # noqa: E402
 
 TABLE_3 = {  # the paper's Table 3: surface divergence, local area, area, volume
     32: (8.710e-3, 8.218e-3, 2.112e-3, 7.928e-5),
     64: (2.013e-3, 1.466e-3, 9.486e-4, 2.631e-5),
 }
-
-
-def summary(folder):
-    return json.loads((folder / "summary.json").read_text())
 
 
 def row(case, quantity, found, expected, good):
@@ -47,8 +45,7 @@ def oblate(n, run):
 
 
 def main():
-    out = Path(sys.argv[1])
-    runs = {folder.name: summary(folder) for folder in sorted(out.iterdir()) if (folder / "summary.json").exists()}
+    runs = {folder.name: outputs.summary(folder) for folder in outputs.folders(command_line.folder_of_runs(__doc__))}
     print(f"Revision {runs['tank_treading']['git_revision']}, made by `validation/studies/foundation.sh`.\n")
     print("| case | quantity | found | expected | met |\n|---|---|---|---|---|")
     tank_treading("tank-treading, 64^3", runs["tank_treading"])

@@ -4,18 +4,20 @@
 
 usage: scripts/python.sh validation/studies/integrators.py SET... [--program build/release/bench/integrators]
 
-A case that is stored already in
-validation/results/integrators.json (or tumbling.json) is not run again. validation/studies/integrators_table.py prints the tables.
+A case that is stored already in validation/results/integrators.json (or tumbling.json) is not run again.
+validation/studies/integrators_table.py prints the tables.
 """
 
-import argparse
 import json
-import os
 import pathlib
 import subprocess
-from fractions import Fraction
+import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line, runs  # noqa: E402
+from harness.outputs import rounded  # noqa: E402
+from harness.runs import ROOT  # noqa: E402
+
 TREADING, TUMBLING = "scenes/paper/tank_treading_64.toml", "scenes/tumbling.toml"
 FOLLOW = {"time.markers": "shape_following"}
 
@@ -104,35 +106,23 @@ def deflated():
         yield treading(64, 48, "shape_following", step, 4000, volume=0.7, end=end, label=", 48 latitudes")
 
 
-SETS = {"treading_64": treading_64, "arkode_64": arkode_64, "transient_64": transient_64, "treading_128": treading_128, "treading_128_small_step": treading_128_small_step, "paper_128": paper_128,
-        "tumbling": tumbling, "tumbling_stokes": tumbling_stokes, "ratio_5": ratio_5, "ratio_5_stokes": ratio_5_stokes,
-        "deflated": deflated}
+SETS = {each.__name__: each for each in (treading_64, arkode_64, transient_64, treading_128, treading_128_small_step, paper_128, tumbling,
+                                         tumbling_stokes, ratio_5, ratio_5_stokes, deflated)}
 STORED_IN = {name: "tumbling" if name.startswith(("tumbling", "ratio", "deflated")) else "integrators" for name in SETS}
 
 
-def rounded(value):
-    if isinstance(value, float):
-        return float(f"{value:.8g}")
-    if isinstance(value, list):
-        return [rounded(v) for v in value]
-    if isinstance(value, dict):
-        return {k: rounded(v) for k, v in value.items()}
-    return value
-
-
 def run(program, what):
-    command = [program, what["scene"], "--every", str(float(Fraction(what["every"])))]
+    command = [program, what["scene"], "--every", str(runs.number(what["every"]))]
     if what["steps"]:
         command += ["--steps", str(what["steps"])]
     for key, value in what["keys"].items():
         command += ["--set", f"{key}={value}"]
-    output = subprocess.run(command, cwd=ROOT, env=os.environ | {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"},
-                            stdout=subprocess.PIPE, check=True, text=True).stdout
-    return rounded(json.loads(output))
+    output = subprocess.run(command, cwd=ROOT, env=runs.environment(), stdout=subprocess.PIPE, check=True, text=True).stdout
+    return rounded(json.loads(output), digits=8)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__, apps=False)
     parser.add_argument("sets", nargs="+", choices=SETS)
     parser.add_argument("--program", default="build/release/bench/integrators")
     options = parser.parse_args()

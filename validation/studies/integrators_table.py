@@ -5,13 +5,17 @@
 usage: scripts/python.sh validation/studies/integrators_table.py [--picture docs/images/validation/tumbling.png]
 """
 
-import argparse
 import json
 import pathlib
+import sys
 
 import numpy as np
 
-RESULTS = pathlib.Path(__file__).resolve().parents[1] / "results"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line  # noqa: E402
+from harness.runs import ROOT  # noqa: E402
+
+RESULTS = ROOT / "validation" / "results"
 
 
 def stored(name):
@@ -136,7 +140,7 @@ def draw(results, file):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__, apps=False)
     parser.add_argument("--picture", help="file to draw the tumbling into")
     options = parser.parse_args()
     treading, turned = stored("integrators"), stored("tumbling")

@@ -3,26 +3,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of validation/studies/lid_cavity.md, from the JSON that lid_cavity --out writes.
 
-usage: lid_cavity_table.py LID_CAVITY_JSON
+usage: scripts/python.sh validation/studies/lid_cavity_table.py LID_CAVITY_JSON
 """
 import json
 import math
+import pathlib
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line, extrapolation, tables  # noqa: E402
 
 LINES = {"u_along_y": ("u", "y", "(1/2, y, 1/2)"), "v_along_x": ("v", "x", "(x, 1/2, 1/2)")}
 EXTREMA = {"u_minimum": "min u", "v_maximum": "max v", "v_minimum": "min v"}
 
 
 def table(head, rows):
-    print("| " + " | ".join(head) + " |")
-    print("|" + "---|" * len(head))
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
-    print()
-
-
-def extrapolated(coarse, fine, ratio, order=2.0):
-    return fine + (fine - coarse) / (ratio**order - 1)
+    print(tables.markdown(tables.table("", head, rows)), end="\n\n")
 
 
 def order_of(values, cells):
@@ -57,7 +53,7 @@ def extrema(grids):
     for key in EXTREMA:
         values = [grid[key]["value"] for grid in grids[-3:]]
         order = order_of(values, cells)
-        limits += [f"{extrapolated(values[1], values[2], cells[2] / cells[1]):.5f}", ""]
+        limits += [f"{extrapolation.at_zero([n**-2 for n in cells[1:]], values[1:]):.5f}", ""]
         orders += [f"{order:.2f}" if order else "none", ""]
     table(head, rows + [limits, orders])
 
@@ -98,8 +94,9 @@ def profiles(result):
 
 
 def main():
-    with open(sys.argv[1]) as file:
-        result = json.load(file)
+    parser = command_line.parser(__doc__, apps=False)
+    parser.add_argument("file", type=pathlib.Path, metavar="LID_CAVITY_JSON")
+    result = json.loads(parser.parse_args().file.read_text())
     print(f"Reynolds number {result['reynolds_number']:g}. Published: {result['published']['reference']}.\n")
     print("Extrema on the centrelines:\n")
     extrema(result["grids"])

@@ -2,21 +2,19 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The table of validation/studies/redistribution.sh: how long each run lasted and how its mesh and its membrane fared."""
-import csv
-import json
+import pathlib
 import sys
-from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line, outputs, tables  # noqa: E402
 
 
-def rows(folder):
-    with open(folder / "diagnostics.csv") as file:
-        return list(csv.DictReader(file))
-
-
-def at(table, time):
-    """The row nearest to a time, or None when the run did not reach it."""
-    row = min(table, key=lambda r: abs(float(r["time"]) - time))
-    return row if abs(float(row["time"]) - time) < 0.2 else None
+def at(course, time):
+    """The index of the row nearest to a time, or None when the run did not reach it."""
+    row = int(np.argmin(np.abs(course["time"] - time)))
+    return row if abs(course["time"][row] - time) < 0.2 else None
 
 
 def outcome(summary):
@@ -26,37 +24,35 @@ def outcome(summary):
 
 
 def overview(runs):
-    print("| run | outcome | redistributions | inclination, degrees | frequency | area error | local area error |"
-          " volume error | wall s |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    rows = []
     for name, folder in runs.items():
-        summary, last = json.loads((folder / "summary.json").read_text()), rows(folder)[-1]
+        summary, course = outputs.summary(folder), outputs.course(folder)
         vesicle = summary["vesicles"][0] or {}
-        angle = float(last["inclination_angle_deg"] or "nan")
-        print(f"| {name} | {outcome(summary)} | {vesicle.get('redistributions', '-')} | {angle:.2f} |"
-              f" {float(last['tank_treading_frequency']):.4f} | {float(last['area_error']):.1e} |"
-              f" {float(last['max_local_area_error']):.1e} | {float(last['volume_error']):.1e} |"
-              f" {summary['wall_seconds']:.0f} |")
+        last = [format(course[key][-1], form) for key, form in (
+            ("inclination_angle_deg", ".2f"), ("tank_treading_frequency", ".4f"), ("area_error", ".1e"), ("max_local_area_error", ".1e"),
+            ("volume_error", ".1e"))]
+        rows.append([name, outcome(summary), str(vesicle.get("redistributions", "-")), *last, f"{summary['wall_seconds']:.0f}"])
+    print(tables.markdown(tables.table("", ["run", "outcome", "redistributions", "inclination, degrees", "frequency", "area error",
+                                            "local area error", "volume error", "wall s"], rows)))
 
 
 def history(title, never, redistributed, times):
     print(f"\n{title}: without / with redistribution\n")
-    print("| t | mesh aspect ratio | spectrum tail | local area error | surface divergence | bending energy | inclination |")
-    print("|---|---|---|---|---|---|---|")
     columns = (("mesh_aspect_ratio", ".2f"), ("spectrum_tail", ".0e"), ("max_local_area_error", ".3f"),
                ("surface_divergence_max", ".3f"), ("bending_energy", ".2f"), ("inclination_angle_deg", ".2f"))
-    tables = [rows(never), rows(redistributed)]
+    courses = [outputs.course(never), outputs.course(redistributed)]
+    rows = []
     for time in times:
-        found = [at(table, time) for table in tables]
-        cells = [" / ".join(format(float(row[key] or "nan"), form) if row else "-" for row in found)
-                 for key, form in columns]
-        print(f"| {time:g} | " + " | ".join(cells) + " |")
+        found = [(course, at(course, time)) for course in courses]
+        both = lambda key, form: " / ".join("-" if row is None else format(course[key][row], form) for course, row in found)  # noqa: E731
+        rows.append([f"{time:g}", *(both(key, form) for key, form in columns)])
+    print(tables.markdown(tables.table("", ["t", "mesh aspect ratio", "spectrum tail", "local area error", "surface divergence", "bending energy",
+                                            "inclination"], rows)))
 
 
 def main():
-    out = Path(sys.argv[1])
-    runs = {folder.name: folder for folder in sorted(out.iterdir()) if (folder / "summary.json").exists()}
-    revision = json.loads((runs["shear"] / "summary.json").read_text())["git_revision"]
+    runs = {folder.name: folder for folder in outputs.folders(command_line.folder_of_runs(__doc__))}
+    revision = outputs.summary(runs["shear"])["git_revision"]
     print(f"Revision {revision}, made by `validation/studies/redistribution.sh`. Values at the last row of each run.\n")
     overview(runs)
     history("Shear, reduced volume 0.7", runs["shear_never"], runs["shear"], (1, 2, 4, 5, 6, 7, 8, 8.6, 10, 15, 20, 25, 30))

@@ -24,7 +24,8 @@ duct() { # duct NAME OPTION...
 {
   echo "# Flow in rectangular ducts against the exact series"
   echo
-  echo "Revision $(revision), made by \`validation/studies/steady_flows.sh\`. The conclusions are in [the study of the foundation](../../docs/studies/foundation.md#the-fluid-alone)."
+  echo "Revision $(revision), made by \`validation/studies/steady_flows.sh\`. The conclusions are in"
+  echo "[the study of the foundation](../../docs/studies/foundation.md#the-fluid-alone)."
   echo
   for widths in "3 3" "3 2.25"; do
     read -ra half_widths <<<"$widths"

@@ -2,61 +2,44 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of validation/studies/thickness_correction.sh."""
-import csv
 import json
+import pathlib
 import sys
-from pathlib import Path
 
-length = 12.0  # of the box
-
-
-def rows_of(folder):
-    with open(folder / "diagnostics.csv") as file:
-        return list(csv.DictReader(file))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from harness import command_line, extrapolation, outputs  # noqa: E402
 
 
-def angles(rows):
-    """Times, and inclinations in degrees followed through turns."""
-    times, values, turns = [], [], 0.0
-    for row in rows:
-        angle = float(row["inclination_angle_deg"])
-        if values and angle + turns - values[-1] > 90.0:
-            turns -= 180.0
-        times.append(float(row["time"]))
-        values.append(angle + turns)
-    return times, values
-
-
-def time_at(rows, wanted):
-    times, values = angles(rows)
+def time_at(course, wanted):
+    """When the inclination, followed through turns, first falls through an angle in degrees; None if it does not."""
+    times, values = course["time"], outputs.unwrapped(course["inclination_angle_deg"])
     for i in range(1, len(values)):
         if values[i - 1] >= wanted > values[i]:
-            return times[i - 1] + (times[i] - times[i - 1]) * (values[i - 1] - wanted) / (values[i - 1] - values[i])
+            return float(times[i - 1] + (times[i] - times[i - 1]) * (values[i - 1] - wanted) / (values[i - 1] - values[i]))
     return None
 
 
-def quantities(group, rows):
+def quantities(group, course):
     if group == "tumbling":
-        return {"time of angle 0": time_at(rows, 0.0), "of -60 degrees": time_at(rows, -60.0)}
-    last = rows[-1]
-    return {"inclination / pi": float(last["inclination_angle_deg"]) / 180,
-            "frequency": float(last["tank_treading_frequency"]),
-            "max abs div W": float(last["surface_divergence_max"])}
+        return {"time of angle 0": time_at(course, 0.0), "of -60 degrees": time_at(course, -60.0)}
+    last = {key: float(values[-1]) for key, values in course.items()}
+    return {"inclination / pi": last["inclination_angle_deg"] / 180, "frequency": last["tank_treading_frequency"],
+            "max abs div W": last["surface_divergence_max"]}
 
 
 def extrapolated(points):
     """Linear in h through the two finest (cells, value)."""
-    (coarse, a), (fine, b) = sorted(points)[-2:]
-    return (b * fine - a * coarse) / (fine - coarse)
+    cells, values = zip(*sorted(points)[-2:])
+    return extrapolation.at_zero([1 / n for n in cells], values)
 
 
 def main():
-    out = Path(sys.argv[1])
+    out = command_line.folder_of_runs(__doc__)
     record = {}
-    for summary in sorted(out.glob("*/summary.json")):
-        group, corrected, cells = summary.parent.name.rsplit("_", 2)
-        status = json.loads(summary.read_text())["status"]
-        values = quantities(group, rows_of(summary.parent)) if status == "completed" else {"stopped": None}
+    for folder in outputs.folders(out):
+        group, corrected, cells = folder.name.rsplit("_", 2)
+        status = outputs.summary(folder)["status"]
+        values = quantities(group, outputs.course(folder)) if status == "completed" else {"stopped": None}
         for name, value in values.items():
             record.setdefault(group, {}).setdefault(name, {}).setdefault(corrected, {})[cells] = value
     for file in sorted(out.glob("modes_*.txt")):

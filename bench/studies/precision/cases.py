@@ -8,9 +8,8 @@ case, the error of the box is not the subject.
 
 import dataclasses
 
+from harness import extrapolation
 from harness.runs import Run
-
-from . import errors
 
 LEVELS = (1e-2, 1e-3, 1e-4)
 
@@ -74,7 +73,8 @@ class Case:
 
 SHORT = {"mesh.latitudes": "{} lat", "time.step": "dt {}", "time.markers": "{}",
          "membrane.sigma0": "sigma0 {}", "fluid.viscous_treatment": "{} viscosity", "fluid.inertia": "inertia {}", "coupling.kernel": "{}",
-         "fluid.velocity_solver": "{}", "membrane.integral_rate": "r {}", "time.tolerance": "tol {}", "time.implicit_tolerance": "to {}", "method.preset": "{} preset",
+         "fluid.velocity_solver": "{}", "membrane.integral_rate": "r {}", "time.tolerance": "tol {}", "time.implicit_tolerance": "to {}",
+         "method.preset": "{} preset",
          "method.accuracy": "accuracy {}"}
 
 
@@ -84,7 +84,7 @@ CORRECTED, PLAIN = {"coupling.thickness_correction": True}, {"coupling.thickness
 
 def estimate(name, width, grids, common):
     """The polynomial in the spacing through runs on these grids, at zero."""
-    weights = errors.to_zero([width / n for n in grids])
+    weights = extrapolation.weights_at_zero([width / n for n in grids])
     return Estimate(name, [(w, common | {"cells": n}) for w, n in zip(weights, grids)])
 
 
@@ -154,7 +154,8 @@ def shear_case(quick):
         [finest("next finest, corrected", grids[1], fine | CORRECTED),
          estimate("extrapolated, corrected", width, grids[:2], fine | CORRECTED),
          estimate("extrapolated from three grids, plain", width, plain, fine | PLAIN)],
-        [("time step", {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32}, {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32, "time.step": "1/384"}),
+        [("time step", {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32},
+          {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32, "time.step": "1/384"}),
          ("sigma0", base | {"time.step": "1/48"}, base | {"time.step": "1/48", "membrane.sigma0": 60000})][:1 if quick else 2],
         {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency"}, 3.0, width, (1, 0.5, 1))
 
@@ -272,7 +273,8 @@ def extension_case(quick):
     """Not a sweep: the settings that the others recommend, and shorter steps. It set those of method.accuracy."""
     width = 8.0
     sweeps = [("recommended", "level", {"cells": n, "mesh.latitudes": lat, "time.step": f"1/{step}"} | CORRECTED)
-              for n, lat, step in ((32, 16, 24), (32, 24, 24), (48, 24, 24), (64, 32, 24), (64, 40, 48), (64, 40, 96), (96, 48, 48), (96, 64, 96), (96, 64, 192))]
+              for n, lat, step in ((32, 16, 24), (32, 24, 24), (48, 24, 24), (64, 32, 24), (64, 40, 48), (64, 40, 96), (96, 48, 48), (96, 64, 96),
+                                   (96, 64, 192))]
     sweeps += [("plain", "grid", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": "1/24"} | PLAIN) for n in (32, 64)]
     fine = {"mesh.latitudes": 40 if quick else 64, "time.step": "1/48" if quick else "1/96"}
     grids = (96, 64, 48) if quick else (160, 128, 96)
@@ -299,7 +301,8 @@ def preset_case(name, title, scene, keys, shape, columns, quick):
     grids = (96, 64, 48) if quick else (160, 128, 96)
     small = {"cells": 48, "mesh.latitudes": 24} | CORRECTED
     return Case(
-        name, f"not used in the choice: {title}", scene, {"output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2} | keys,
+        name, f"not used in the choice: {title}", scene,
+        {"output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2} | keys,
         sweeps, finest("finest grid, corrected", grids[0], fine | CORRECTED),
         [finest("next finest, corrected", grids[1], fine | CORRECTED),
          estimate("extrapolated from three grids, plain", width, grids, fine | PLAIN | {"time.step": step})],
@@ -314,10 +317,11 @@ def unseen_case(quick):
 
 def tilted_case(quick):
     """No symmetry but that of a point; it had no say in any of the settings."""
-    return preset_case("unseen_tilted", "reduced volume 0.87, Ca = 1.5, tilted out of the plane of a shear flow, to t = 3", "scenes/poiseuille_off_axis.toml",
-                       {"domain.lower": [-4, -4, -4], "domain.periodic": [False] * 3, "domain.mirror": [False] * 3, "flow.type": "shear", "membrane.capillary_number": 1.5,
-                        "vesicles.0.reduced_volume": 0.87, "vesicles.0.centre": [0, 0, 0], "vesicles.0.rotation_axis": [1, 1, 0], "vesicles.0.rotation_deg": 50,
-                        "time.end": 3}, (1, 1, 1),
+    return preset_case("unseen_tilted", "reduced volume 0.87, Ca = 1.5, tilted out of the plane of a shear flow, to t = 3",
+                       "scenes/poiseuille_off_axis.toml",
+                       {"domain.lower": [-4, -4, -4], "domain.periodic": [False] * 3, "domain.mirror": [False] * 3, "flow.type": "shear",
+                        "membrane.capillary_number": 1.5, "vesicles.0.reduced_volume": 0.87, "vesicles.0.centre": [0, 0, 0],
+                        "vesicles.0.rotation_axis": [1, 1, 0], "vesicles.0.rotation_deg": 50, "time.end": 3}, (1, 1, 1),
                        {"angle": "inclination_angle_deg", "deformation": "deformation"}, quick)
 
 

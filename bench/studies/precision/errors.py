@@ -7,11 +7,10 @@ the same mesh and times can be combined linearly, which is how references are ex
 marker's position depends as smoothly on spacing and step as the shape does.
 """
 
-import math
-
 import numpy as np
 
 from harness import outputs, spectral
+from harness.outputs import turned
 
 SAMPLES = 20  # latitudes of the points whose distance is taken
 ROUND = 9  # decimals of times that are the same
@@ -41,16 +40,6 @@ def combination(parts):
             columns = [columns[0] + turned(column - columns[0]) for column in columns]
         course[key] = columns[0] if key in ("step", "time", "vesicle") else sum(w * column for (w, _), column in zip(parts, columns))
     return {"membranes": membranes, "course": course}
-
-
-def to_zero(spacings):
-    """Weights of the polynomial through values at these spacings, taken at zero."""
-    return [math.prod(other / (other - h) for other in spacings if other != h) for h in spacings]
-
-
-def turned(degrees):
-    """A difference of inclinations, in (-90, 90]."""
-    return -((-degrees + 90.0) % 180.0 - 90.0)
 
 
 class Surface:

@@ -17,7 +17,8 @@ def tables_of(stored):
     reference = stored["reference"]
     levels = [row for level in stored["levels"] for row in level_rows(stored, level)]
     doubts = [[name, *(percent(found[key]) for key in names)] for name, found in reference["doubts"].items()]
-    rows = [[name, point["family"], point["h"], point["cpu_seconds"], *(percent(point[key]) for key in names), "front" if name in stored["front"] else ""]
+    rows = [[name, point["family"], point["h"], point["cpu_seconds"], *(percent(point[key]) for key in names),
+             "front" if name in stored["front"] else ""]
             for name, point in sorted(stored["points"].items(), key=lambda item: item[1].get("largest", 9.0)) if "largest" in point]
     rows += [[name, point["family"], point["h"], point["cpu_seconds"], *[""] * len(names), f"stopped at t = {point['run']['time']:.3g}"]
              for name, point in stored["points"].items() if "largest" not in point]
@@ -39,9 +40,9 @@ def level_rows(stored, level):
     return rows
 
 
-def source(stored):
+def source(stored, command):
     count = len(stored["points"]) + len(stored["reference"]["runs"])
-    return (f"`{stored['command']}`, {count} runs, {seconds(stored['cpu_seconds'] + stored['reference']['cpu_seconds'])} of one core, of which the "
+    return (f"`{command}`, {count} runs, {seconds(stored['cpu_seconds'] + stored['reference']['cpu_seconds'])} of one core, of which the "
             f"reference and what it is held against took {seconds(stored['reference']['cpu_seconds'])}.")
 
 

@@ -42,12 +42,14 @@ def evaluate(case, wanted):
             continue
         found = {} if name in stopped else reference.errors(state(keys))
         points[name] = {"family": family, "knob": knob, "h": case.spacing(keys), "cpu_seconds": runs.cpu_seconds(wanted[name])} | found | {
-            "angle_end_deg": None if name in stopped else float(state(keys)["course"]["inclination_angle_deg"][-1]), "run": runs.provenance(wanted[name])}
+            "angle_end_deg": None if name in stopped else float(state(keys)["course"]["inclination_angle_deg"][-1]),
+            "run": runs.provenance(wanted[name])}
     for estimate in case.recipes:
         names = [case.label(keys) for _, keys in estimate.parts]
         if not stopped.intersection(names):
-            points[estimate.name] = {"family": "two grids", "knob": "extrapolation", "h": min(case.spacing(keys) for _, keys in estimate.parts),
-                                     "cpu_seconds": sum(runs.cpu_seconds(wanted[n]) for n in names)} | reference.errors(combined(estimate)) | {"parts": names}
+            points[estimate.name] = {
+                "family": "two grids", "knob": "extrapolation", "h": min(case.spacing(keys) for _, keys in estimate.parts),
+                "cpu_seconds": sum(runs.cpu_seconds(wanted[n]) for n in names)} | reference.errors(combined(estimate)) | {"parts": names}
     own = {key: max(found[key] for found in doubts.values()) for key in next(iter(doubts.values()))}
     front = pareto(points)
     course = reference.state["course"]
@@ -58,7 +60,10 @@ def evaluate(case, wanted):
                           "cpu_seconds": sum(runs.provenance(wanted[name])["cpu_seconds"] for name in reference_runs(case)),
                           "end": {key: float(course[key][-1]) for key in ("time", *case.columns.values())}},
             "cpu_seconds": sum(point["cpu_seconds"] for point in points.values()),
-            "front": front, "levels": {f"{level:g}": {"within": cheapest(points, level), "beyond doubt": cheapest(points, level, own["largest"])} for level in LEVELS}, "points": points}
+            "front": front,
+            "levels": {f"{level:g}": {"within": cheapest(points, level), "beyond doubt": cheapest(points, level, own["largest"])}
+                       for level in LEVELS},
+            "points": points}
 
 
 def reference_runs(case):

@@ -69,9 +69,10 @@ def of_table(values):
         periods = v["periods"]
         motion = (f"{v['half_turns'] / 2:g} turns, period {periods[0]:.3f} at first, {periods[-1]:.3f} at last" if len(periods) > 1
                   else f"{v['angle']:.3f}, drifting by {tiny(v['angle_drift'])}")
-        rows.append([name, f"{v['time']:.0f}" if v["status"] == "completed" else f"{v['time']:.2f}, stopped", tiny(v["divergence"]), f"{v['growth']:+.4f}",
-                     f"{tiny(v['area_error'])}, {tiny(v['area_drift'])}", f"{tiny(v['volume_error'])}, {tiny(v['volume_drift'])}", tiny(v["local_area"]),
-                     tiny(v["off_centre"]), motion])
+        end = f"{v['time']:.0f}" if v["status"] == "completed" else f"{v['time']:.2f}, stopped"
+        rows.append([name, end, tiny(v["divergence"]), f"{v['growth']:+.4f}",
+                     f"{tiny(v['area_error'])}, {tiny(v['area_drift'])}", f"{tiny(v['volume_error'])}, {tiny(v['volume_drift'])}",
+                     tiny(v["local_area"]), tiny(v["off_centre"]), motion])
     return table("Second half of each run; rates per unit time", ["", "to t", "largest surface divergence", "its growth rate", "area error, drift",
                  "volume error, drift", "largest local area error", "off centre", "inclination in degrees, or turns"], rows)
 

@@ -6,9 +6,10 @@ import dataclasses
 import math
 from collections.abc import Callable
 
-from harness.runs import ROOT, Run
+from harness.runs import ROOT, Run, number
 
 SCENE = "scenes/paper/half_box.toml"
+ACROSS = "bench/studies/stability/start.toml"
 STORE = ROOT / "out" / "stability"
 
 
@@ -39,9 +40,9 @@ class Axis:
 
 @dataclasses.dataclass(frozen=True)
 class Map:
-    """keys(panel, x, y): what differs from the scene. same_problem(panel, x, y): runs of one physical problem, of which the quietest tells how quiet
-    it can be; None where there are too few to tell. recommended(panel, x, y, convection): whether documents recommend it, `source` says which; convection: the longest step at which the
-    program's plan calls the explicit convection stable. limits(panel): lines (label, x, y)."""
+    """keys(panel, x, y): what differs from the scene. same_problem(panel, x, y): runs of one physical problem, of which the quietest tells how
+    quiet it can be; None where there are too few to tell. recommended(panel, x, y, convection): whether documents recommend it, `source` says
+    which; convection: the longest step at which the program's plan calls the explicit convection stable. limits(panel): lines (label, x, y)."""
 
     name: str
     title: str
@@ -67,13 +68,8 @@ class Map:
         base = SMALL if self.scene == SCENE else {}
         keys = base | {"time.end": self.end} | self.keys(panel, x, y)
         keys = {key: value for key, value in keys.items() if value is not None}
-        return Run(f"{panel}, {self.x.label} {x}, {self.y.label} {y}", self.scene, keys | {"output.diagnostics_every": _every(keys["time.step"])}, store=STORE)
-
-
-def number(value):
-    """Of a step written as a fraction."""
-    top, _, bottom = str(value).partition("/")
-    return float(top) / float(bottom or 1)
+        keys |= {"output.diagnostics_every": _every(keys["time.step"])}
+        return Run(f"{panel}, {self.x.label} {x}, {self.y.label} {y}", self.scene, keys, store=STORE)
 
 
 def _every(step):
@@ -109,7 +105,8 @@ INTEGRATORS = Map(
     Axis("sigma0", (60, 200, 600, 2000, 6000, 20000, 60000), (60, 600, 6000, 60000)), 4,
     lambda markers, dt, sigma0: {"time.markers": markers, "time.step": dt, "membrane.sigma0": sigma0},
     # Explicit markers keep the area by the tension alone: with a soft one they have another problem.
-    lambda markers, dt, sigma0: (sigma0, markers in ("shape_following", "implicit")), _integrator_recommended, "docs/time_integration.md, first table", _integrator_limits)
+    lambda markers, dt, sigma0: (sigma0, markers in ("shape_following", "implicit")), _integrator_recommended,
+    "docs/time_integration.md, first table", _integrator_limits)
 
 # Long shapes need room; 32 latitudes are the default.
 ROOMY = box(4, 40) | {"mesh.latitudes": 32}
@@ -117,7 +114,8 @@ SHAPES = Map(
     "shapes", "reduced volume and capillary number", ("from across the flow", "from near rest"),
     Axis("reduced volume", (0.6, 0.65, 0.7, 0.8, 0.9, 0.95, 0.99), (0.6, 0.7, 0.9, 0.99)),
     Axis("Ca", (0.05, 0.2, 1, 2.5, 10, 30, 100), (0.05, 2.5, 100)), 8,
-    lambda start, volume, ca: ROOMY | {"vesicles.0.reduced_volume": volume, "membrane.capillary_number": ca, "time.step": "1/24", "membrane.sigma0": 2000,
+    lambda start, volume, ca: ROOMY | {"vesicles.0.reduced_volume": volume, "membrane.capillary_number": ca, "time.step": "1/24",
+                                       "membrane.sigma0": 2000,
                                        "vesicles.0.rotation_deg": 0 if start == "from across the flow" else 63},
     lambda start, volume, ca: None,
     lambda start, volume, ca, convection: volume >= 0.7 and 1 / 24 <= ca / 2 and (ca < 10 or volume >= 0.9),
@@ -174,7 +172,8 @@ def _inertia_recommended(how, dt, reynolds, convection):
 
 
 INERTIA = Map(
-    "inertia", "Reynolds number and time step", ("shape_following, sigma0 = 2000", "shape_following, g = 80", "implicit, sigma0 = 2000", "euler, g = 4"),
+    "inertia", "Reynolds number and time step",
+    ("shape_following, sigma0 = 2000", "shape_following, g = 80", "implicit, sigma0 = 2000", "euler, g = 4"),
     Axis("dt", ("1/12", "1/24", "1/48", "1/96", "1/192"), ("1/12", "1/24", "1/48")),
     Axis("Re", (1e-4, 1e-3, 1e-2, 0.1, 1, 3, 10, 30, 100), (1e-4, 0.1, 1, 10, 100)), 6, _inertia_keys,
     lambda how, dt, reynolds: reynolds, _inertia_recommended, "docs/time_integration.md, shape_following and Convection",
@@ -218,7 +217,8 @@ FORMULA_MAP = Map(
     "formulas", "filters, tension forms, Laplacians", ("euler, 24 latitudes", "euler, 48 latitudes", "shape_following, 32 latitudes"),
     Axis("reduced volume", (0.7, 0.8, 0.9, 0.975), (0.8,)), Axis("formula", tuple(FORMULAS), tuple(FORMULAS)), 4, _formula_keys,
     lambda how, volume, formula: volume,
-    lambda how, volume, formula, convection: formula in ADVISED and not (how.startswith("shape") and formula in ("volume penalty", "preset paper")), "docs/scene.md, membrane and mesh",
+    lambda how, volume, formula, convection: formula in ADVISED and not (how.startswith("shape") and formula in ("volume penalty", "preset paper")),
+    "docs/scene.md, membrane and mesh",
     quick_panels=("euler, 24 latitudes", "shape_following, 32 latitudes"))
 
 # Every start that the documents recommend, on grids up to h = R/21, with as few latitudes as they recommend: pi/N about h.
@@ -231,8 +231,8 @@ def _start_keys(panel, volume, cells_per_radius):
     shape, _, ca = panel.partition(", Ca = ")
     half_width = 4 if volume < 0.75 else 3  # a long one needs room
     cells = 2 * round(half_width * cells_per_radius)
-    keys = box(half_width, cells) | {"mesh.latitudes": 8 * round(math.pi * cells_per_radius / 8), "membrane.capillary_number": float(ca), "membrane.sigma0": 600,
-                                     "time.step": "1/24", "vesicles.0.shape": shape}
+    keys = box(half_width, cells) | {"mesh.latitudes": 8 * round(math.pi * cells_per_radius / 8), "membrane.capillary_number": float(ca),
+                                     "membrane.sigma0": 600, "time.step": "1/24", "vesicles.0.shape": shape}
     if shape != "ellipsoid":
         return keys | {"vesicles.0.reduced_volume": volume}
     middle = MIDDLE_AXIS[volume]
@@ -240,15 +240,18 @@ def _start_keys(panel, volume, cells_per_radius):
 
 
 STARTS = Map(
-    "starts", "starts across the flow, reduced volume and grid", tuple(f"{shape}, Ca = {ca:g}" for ca in START_CAPILLARY_NUMBERS for shape in ("prolate", "oblate", "ellipsoid")),
-    Axis("reduced volume", tuple(MIDDLE_AXIS), (0.85,)), Axis("R/h", (5.33, 8, 10.67, 16, 21.33), (5.33, 8)), 1, _start_keys, lambda panel, volume, cells: None,
-    lambda panel, volume, cells, convection: volume >= 0.9 or not panel.endswith("= 10"), "docs/stability.md, Recommended region", quick_panels=("oblate, Ca = 2.5",), scene="bench/studies/stability/start.toml")
+    "starts", "starts across the flow, reduced volume and grid",
+    tuple(f"{shape}, Ca = {ca:g}" for ca in START_CAPILLARY_NUMBERS for shape in ("prolate", "oblate", "ellipsoid")),
+    Axis("reduced volume", tuple(MIDDLE_AXIS), (0.85,)), Axis("R/h", (5.33, 8, 10.67, 16, 21.33), (5.33, 8)), 1, _start_keys,
+    lambda panel, volume, cells: None,
+    lambda panel, volume, cells, convection: volume >= 0.9 or not panel.endswith("= 10"), "docs/stability.md, Recommended region",
+    quick_panels=("oblate, Ca = 2.5",), scene=ACROSS)
 
 # Stiffer ones, where bending would make another shape within a step: their first steps are taken in parts.
 STIFF_STARTS = Map(
     "stiff_starts", "stiff starts across the flow", ("prolate", "oblate", "ellipsoid"), Axis("reduced volume", (0.7, 0.8, 0.9, 0.95), (0.7, 0.9)),
     Axis("Ca", (0.01, 0.02, 0.05, 0.1, 0.2, 0.5), (0.01, 0.1)), 1,
     lambda shape, volume, ca: _start_keys(f"{shape}, Ca = {ca}", volume, 5.33), lambda shape, volume, ca: None,
-    lambda shape, volume, ca, convection: 1 / 24 <= ca / 2, "docs/stability.md, Recommended region", scene="bench/studies/stability/start.toml")
+    lambda shape, volume, ca, convection: 1 / 24 <= ca / 2, "docs/stability.md, Recommended region", scene=ACROSS)
 
 ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS, STIFF_STARTS)}

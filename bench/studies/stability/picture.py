@@ -7,9 +7,9 @@ import math
 import numpy as np
 from harness import drawing
 from harness.drawing import plt
+from harness.runs import number
 
 from . import verdicts
-from .maps import number
 
 COLOURS = {verdicts.STABLE: "#8fd0b8", verdicts.NOISY: "#f2c14e", verdicts.BLOWN_UP: "#d55e00", verdicts.REFUSED: "0.85"}
 
@@ -20,7 +20,8 @@ def draw(what, cells, path):
     columns = min(3, len(panels))
     rows = math.ceil(len(panels) / columns)
     wide = 0.9 if isinstance(ys[0], str) else 0.0  # names of formulas
-    figure, axes = drawing.figure(rows, columns, figsize=(columns * (1.0 + wide + 0.42 * len(xs)) + 0.2, rows * (0.9 + 0.34 * len(ys)) + 0.5), squeeze=False)
+    size = columns * (1.0 + wide + 0.42 * len(xs)) + 0.2, rows * (0.9 + 0.34 * len(ys)) + 0.5
+    figure, axes = drawing.figure(rows, columns, figsize=size, squeeze=False)
     for axis, panel in zip(axes.flat, panels):
         own = {(xs.index(cell["x"]), ys.index(cell["y"])): cell for cell in cells if cell["panel"] == panel}
         _squares(axis, own)
@@ -40,7 +41,8 @@ def _squares(axis, own):
     for (i, j), cell in own.items():
         hatch = "////" if cell["verdict"] == verdicts.REFUSED else None
         axis.add_patch(plt.Rectangle((i - 0.5, j - 0.5), 1, 1, facecolor=COLOURS[cell["verdict"]], edgecolor="white", linewidth=0.8, hatch=hatch))
-        axis.text(i, j, _text(cell), ha="center", va="center", fontsize=6, color="white" if cell["verdict"] == verdicts.BLOWN_UP else "0.15", zorder=4)
+        colour = "white" if cell["verdict"] == verdicts.BLOWN_UP else "0.15"
+        axis.text(i, j, _text(cell), ha="center", va="center", fontsize=6, color=colour, zorder=4)
 
 
 def _text(cell):

@@ -4,32 +4,16 @@
 
 import math
 import re
-import subprocess
 
 import numpy as np
 
 from harness import outputs
-from harness.runs import ROOT
 
 STABLE, NOISY, BLOWN_UP, REFUSED = "stable", "noisy", "blown up", "refused"
 LOUD = 0.1            # surface divergence, in shear rates
 ABOVE_QUIETEST = 2.0  # times that of the quietest run of the same problem
 JITTER = 0.05         # degrees, from step to step
 TAIL = 1e-4           # share of the shape's energy in the top third of the degrees
-
-
-def plan(run, program):
-    """Whether the program would run the scene, and what it warns of: {"refused": text or None, "warnings": [...], "convection": step or None}."""
-    command = [str(program), run.scene, "--plan", "--threads", "1"]
-    for setting in run.settings():
-        command += ["--set", setting]
-    result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    if result.returncode == 2:
-        return {"refused": result.stderr.strip().removeprefix("error: "), "warnings": [], "convection": None}
-    result.check_returncode()
-    limit = re.search(r"time\.step below about (\S+)", result.stdout)
-    warnings = [" ".join(line.split()) for line in result.stdout.splitlines() if "WARNING" in line]
-    return {"refused": None, "warnings": warnings, "convection": float(limit.group(1)) if limit else None}
 
 
 def jitter(angle):
