@@ -4,6 +4,9 @@
 
 import math
 import re
+import textwrap
+
+WIDTH = 150  # of lines of a page that are not a table's
 
 
 def table(title, columns, rows):
@@ -46,7 +49,8 @@ def text(stored):
 
 def block(stored, source=""):
     """Tables and the line that says where they come from, as they stand in a page."""
-    return "\n" + "\n\n".join(markdown(one) for one in stored) + "\n" + (f"\n{source}\n" if source else "")
+    lines = textwrap.fill(source, WIDTH, break_long_words=False, break_on_hyphens=False)
+    return "\n" + "\n\n".join(markdown(one) for one in stored) + "\n" + (f"\n{lines}\n" if source else "")
 
 
 def write_into(page, blocks):
