@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 # Checks that every relative link of the documents leads somewhere: the file exists, and so does the heading that an anchor names.
-# Where sources and scripts name a page or a section of docs/, it exists too.
+# Where sources and scripts name a page or a section of docs/, it exists too, and so does what they and the documents name of
+# validation/ and bench/, unless a word in capitals stands for a part of the name.
 # usage: scripts/check_links.sh
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
@@ -17,6 +18,8 @@ import sys
 
 ROOT = pathlib.Path(".").resolve()
 SOURCES = {".h", ".cpp", ".py", ".sh", ".txt", ".toml"}
+PAGES_OF_DOCS = r"docs/[\w/]+\.md(?:#[\w-]+)?"
+STUDIES = r"(?:validation|bench)/[a-z0-9_/]+\.(?:md|py|sh|json|toml|h|cpp)\b"
 
 
 def files():
@@ -60,13 +63,16 @@ def links(page):
             yield target
 
 
+def named(file, what):
+    return [(target, problem(ROOT / "of the root", target)) for target in re.findall(rf"(?<![\w/.]){what}", file.read_text(errors="replace"))]
+
+
 failed, count = False, 0
 for file in sorted(files()):
     if file.suffix == ".md":
-        found = [(target, problem(file, target)) for target in links(file)]
+        found = [(target, problem(file, target)) for target in links(file)] + named(file, STUDIES)
     elif file.suffix in SOURCES:
-        named = re.findall(r"(?<![\w/.])docs/[\w/]+\.md(?:#[\w-]+)?", file.read_text(errors="replace"))
-        found = [(target, problem(ROOT / "of the root", target)) for target in named]
+        found = named(file, PAGES_OF_DOCS) + named(file, STUDIES)
     else:
         continue
     count += len(found)

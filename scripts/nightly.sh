@@ -15,9 +15,9 @@
 #   tidy         clang-tidy on every source
 #   coverage     which share of the lines of the libraries and apps the tests reach, by file in build/coverage/coverage.txt
 #   docs         scripts/docs.sh
-#   kills        validation/kills.py: 200 runs killed at any moment go on to the same bits
-#   faults       validation/faults.py: disks, permissions, descriptors and memory that run out
-#   hostile      validation/hostile_starts.py: starts that no one should choose
+#   kills        validation/robustness/kills.py: 200 runs killed at any moment go on to the same bits
+#   faults       validation/robustness/faults.py: disks, permissions, descriptors and memory that run out
+#   hostile      validation/robustness/hostile_starts.py: starts that no one should choose
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
@@ -61,10 +61,10 @@ build_bare() {
   build nightly-bare -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_WERROR=ON -DVESIFLOW_BUILD_TESTS=OFF "${options[@]}"
 }
 
-# validate SCRIPT OPTION...: one of validation/, with the apps for this machine.
+# validate SCRIPT OPTION...: one of validation/robustness/, with the apps for this machine.
 validate() {
   build_for native
-  scripts/python.sh "validation/$1.py" --apps build/nightly-native/apps "${@:2}"
+  scripts/python.sh "validation/robustness/$1.py" --apps build/nightly-native/apps "${@:2}"
 }
 
 # All tests with counters, which threads share and tests that run side by side add to.

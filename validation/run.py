@@ -14,18 +14,13 @@ interrupted goes on from its checkpoint: results are in out/validation. --docs p
 there are both, into docs/studies/paper_experiments.md and beyond_the_paper.md.
 """
 
-import argparse
 import json
-import pathlib
-import resource
-import signal
 import subprocess
-import sys
 import time
 
 import cases
-from harness import outputs, runs, tables
-from harness.store import compact, machine, revision, seconds
+from harness import command_line, outputs, runs, store, tables
+from harness.store import machine, revision, seconds
 
 RESULTS = runs.ROOT / "validation" / "results"
 FIGURES = runs.ROOT / "docs" / "figures"
@@ -35,8 +30,8 @@ PAGES = [runs.ROOT / "docs" / "studies" / name for name in ("paper_experiments.m
 class Context:
     """What a case sees: its level, the programs, and its runs' files."""
 
-    def __init__(self, level, build, jobs):
-        self.level, self.build, self.jobs = level, pathlib.Path(build), jobs
+    def __init__(self, options):
+        self.options, self.level = options, options.level
         self.used, self.folders, self.app_seconds = [], {}, 0.0
 
     @property
@@ -50,16 +45,15 @@ class Context:
 
     def app(self, name, *arguments):
         """Standard output of another app."""
-        command = [str(self.build / name), *arguments]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        command = [str(command_line.program(self.options, name)), *arguments]
+        before = runs.children_seconds()
         output = subprocess.run(command, cwd=runs.ROOT, check=True, capture_output=True, text=True).stdout
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        self.app_seconds += after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+        self.app_seconds += runs.children_seconds() - before
         return output
 
     def run(self, what):
         """Runs what is missing of a list of runs; folders by name."""
-        runs.execute_all(what, self.build / "vesicles", self.jobs, lambda line: print(line, flush=True))
+        runs.execute_all(what, command_line.program(self.options), self.options.jobs)
         self.used += what
         self.folders.update({run.name: run.folder() for run in what})
         return self.folders
@@ -67,7 +61,7 @@ class Context:
 
 def carry_out(name, context):
     case = cases.load(name)
-    print(f"== {name} ({context.level}): {case.TITLE}", flush=True)
+    runs.say(f"== {name} ({context.level}): {case.TITLE}")
     start = time.monotonic()
     values = case.compute(context)
     result = {
@@ -78,13 +72,12 @@ def carry_out(name, context):
         "runs": {run.name: runs.provenance(run) for run in context.used},
         "values": outputs.rounded(values),
     }
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / f"{name}.{context.level}.json").write_text(compact(result) + "\n")
+    store.write(RESULTS / f"{name}.{context.level}.json", result)
     for stored in values["tables"]:
         print(tables.text(stored))
     if context.paper or not (RESULTS / f"{name}.paper.json").exists():
         case.draw(context, values, FIGURES / f"{name}.png")
-    print(f"   {time.monotonic() - start:.0f} s", flush=True)
+    runs.say(f"   {time.monotonic() - start:.0f} s")
 
 
 def write_docs():
@@ -93,36 +86,32 @@ def write_docs():
     for file in sorted(RESULTS.glob("*.*.json")):  # coarse before paper, so that the finer one stays
         stored = json.loads(file.read_text())
         case, level = file.name.split(".")[:2]
-        blocks[case] = "\n" + "\n\n".join(tables.markdown(t) for t in stored["values"]["tables"])
-        blocks[case] += f"\n\n`{stored['command']}`, {len(stored['runs'])} runs, {seconds(stored['cpu_seconds'])} of one core.\n"
+        source = f"`{stored['command']}`, {len(stored['runs'])} runs, {seconds(stored['cpu_seconds'])} of one core."
+        blocks[case] = tables.block(stored["values"]["tables"], source)
         total.setdefault(case, {})[level] = stored["cpu_seconds"]
-    rows = [[case, cases.load(case).TITLE, *(seconds(total[case].get(level)) for level in ("coarse", "paper"))] for case in cases.NAMES if case in total]
-    rows.append(["all", "", *(seconds(sum(t.get(level, 0) for t in total.values())) for level in ("coarse", "paper"))])
-    blocks["times"] = "\n" + tables.markdown(tables.table("", ["case", "what", "coarse", "paper"], rows)) + "\n"
+    levels = ("coarse", "paper")
+    rows = [[case, cases.load(case).TITLE, *(seconds(total[case].get(level)) for level in levels)] for case in cases.NAMES if case in total]
+    rows.append(["all", "", *(seconds(sum(t.get(level, 0) for t in total.values())) for level in levels)])
+    blocks["times"] = tables.block([tables.table("", ["case", "what", *levels], rows)])
     for page in PAGES:
-        page.write_text(tables.insert(page.read_text(), blocks))
+        tables.write_into(page, blocks)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = command_line.parser(__doc__, jobs=True)
     parser.add_argument("cases", nargs="*", help="names of cases, or all")
     level = parser.add_mutually_exclusive_group()
     level.add_argument("--coarse", dest="level", action="store_const", const="coarse", default="coarse")
     level.add_argument("--paper", dest="level", action="store_const", const="paper")
-    parser.add_argument("--jobs", type=int, default=1, help="runs at a time (default 1)")
-    parser.add_argument("--apps", default="build/release/apps", help="folder of the programs (default build/release/apps)")
     parser.add_argument("--list", action="store_true", help="list the cases")
     parser.add_argument("--docs", action="store_true", help="put the stored tables into docs/studies")
     options = parser.parse_args()
-    signal.signal(signal.SIGTERM, lambda *_: (runs.stop(), sys.exit(143)))
+    runs.stop_when_told()
     if options.list:
         for name in cases.NAMES:
             print(f"{name:22s} {cases.load(name).TITLE}")
-    unknown = [name for name in options.cases if name != "all" and name not in cases.NAMES]
-    if unknown:
-        parser.error(f"unknown case {unknown[0]}: one of all, {', '.join(cases.NAMES)}")
-    for name in cases.NAMES if "all" in options.cases else options.cases:
-        carry_out(name, Context(options.level, runs.ROOT / options.apps, options.jobs))
+    for name in command_line.chosen(parser, options.cases, cases.NAMES, "case"):
+        carry_out(name, Context(options))
     if options.docs:
         write_docs()
     if not (options.cases or options.list or options.docs):

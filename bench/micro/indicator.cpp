@@ -4,13 +4,13 @@
 // The indicator of a membrane against the exact one, and what it costs.
 //   OMP_WAIT_POLICY=passive build/release/bench/indicator [--cells N...]
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "indicator_cases.h"
+#include "support/timing.h"
 
 namespace {
 
@@ -21,11 +21,11 @@ using coupling::test::Ellipsoid;
 double milliseconds(Indicator& indicator, const vesicle::Surface& surface, fluid::Field<fluid::Cell>& field) {
   double least = 1e300;
   for (int n = 0; n < 15; ++n) {
-    const auto start = std::chrono::steady_clock::now();
-    indicator.add(0, surface, 1.0);
-    indicator.solve(field);
-    least =
-        std::min(least, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    const auto one = [&] {
+      indicator.add(0, surface, 1.0);
+      indicator.solve(field);
+    };
+    least = std::min(least, bench::timed(one).wall);
   }
   return least;
 }

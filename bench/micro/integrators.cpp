@@ -3,8 +3,8 @@
 
 // One run of a scene in memory, for studies of time integration: what it costs, how well it keeps area and volume, and its course.
 //   OMP_NUM_THREADS=1 build/release/bench/integrators SCENE [--set key=value]... [--every T] [--steps N]
-// Prints one JSON object. CPU seconds are those of the steps alone, over all threads. validation/integrators.py makes the tables of
-// validation/integrators.md and validation/tumbling.md with it.
+// Prints one JSON object. CPU seconds are those of the steps alone, over all threads. validation/studies/integrators.py makes the tables of
+// validation/studies/integrators.md and validation/studies/tumbling.md with it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

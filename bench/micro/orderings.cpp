@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -18,6 +17,7 @@
 
 #include "elliptic/cholmod/cholmod_blas.h"
 #include "operators/sparse_operator.h"
+#include "support/timing.h"
 #include "test_problems.h"
 
 namespace {
@@ -25,7 +25,7 @@ namespace {
 using namespace vesiflow::fluid;
 
 double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  return vesiflow::bench::seconds(CLOCK_MONOTONIC);
 }
 
 struct Ordering {

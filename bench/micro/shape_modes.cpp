@@ -3,8 +3,7 @@
 
 // Relaxation rates of small shape modes of a nearly spherical vesicle against theory, for viscosity ratios and resolutions.
 //   OMP_WAIT_POLICY=passive build/release/bench/shape_modes [--cells N...] [--ratio L...] [--half B]
-// "in sphere": theory with a concentric spherical wall of radius B = 3 or 6. Tabulated in validation/viscosity_ratio.md.
-#include <chrono>
+// "in sphere": theory with a concentric spherical wall of radius B = 3 or 6. Tabulated in validation/studies/viscosity_ratio.md.
 #include <cstdio>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "support/shape_modes.h"
+#include "support/timing.h"
 
 namespace {
 
@@ -80,9 +80,8 @@ int main(int argc, char** argv) {
       scene.coupling.kernel = delta_kernel(kernel);
       scene.coupling.thickness_correction = correction;
       if (correction) scene.time.step = std::min(scene.time.step, largest_tension_number * 4.0 * h / 100.0);
-      const auto start = std::chrono::steady_clock::now();
-      found.emplace_back(h, test::measured_rates(scene));
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double seconds =
+          1e-3 * vesiflow::bench::timed([&] { found.emplace_back(h, test::measured_rates(scene)); }).wall;
       show(ratio, cells, h, latitudes, half, found.back().second, seconds);
     }
     if (found.size() < 3) continue;

@@ -5,7 +5,6 @@
 // and against the rate of multiply-adds of this core.
 //   build/release/bench/sht [--latitudes N...] [--repetitions R] [--json]
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -18,6 +17,7 @@
 #include <CLI/CLI.hpp>
 
 #include "harmonics/legendre_tables.h"
+#include "support/timing.h"
 #include "vesicle/spherical_harmonics.h"
 
 namespace {
@@ -32,11 +32,11 @@ struct Time {
 
 /// One repetition lasts at least half a millisecond.
 Time measure(int repetitions, const std::function<void()>& call) {
-  using Clock = std::chrono::steady_clock;
   const auto microseconds = [&](int calls) {
-    const auto start = Clock::now();
-    for (int i = 0; i < calls; ++i) call();
-    return std::chrono::duration<double, std::micro>(Clock::now() - start).count() / calls;
+    const auto repeated = [&] {
+      for (int i = 0; i < calls; ++i) call();
+    };
+    return 1e3 * vesiflow::bench::timed(repeated).wall / calls;
   };
   call();
   const int calls = std::max(1, static_cast<int>(500 / microseconds(1)));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Starts and flows that a user should not choose: right, refused, or warned of in the plan, but never silently wrong.
-// validation/hostile_starts.py has those that take longer.
+// validation/robustness/hostile_starts.py has those that take longer.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -195,7 +195,7 @@ TEST(ViscosityContrast, PlanSaysWhatIsDoneAndWarnsOfStepsThatRing) {
   expect_part({"fluid.viscosity_ratio=5", "fluid.inertia=none"}, "fluid.viscous_treatment plays no part");
 }
 
-// Against theory, at a coarse resolution: validation/viscosity_ratio.md has finer ones, where also the rates themselves
+// Against theory, at a coarse resolution: validation/studies/viscosity_ratio.md has finer ones, where also the rates themselves
 // come near to it. The delta function thickens the membrane and the layer of viscosity, which slows the modes down at both
 // ratios, and a few per cent less at ratio 5; without a contrast in the flow the quotient would be 1, not 0.34 to 0.42.
 TEST(ViscosityContrast, RelaxationOfShapeModesSlowsDownWithTheRatioAsInTheory) {

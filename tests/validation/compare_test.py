@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""bench/compare.py on files made here: medians, ratios, exit codes, refusals."""
+"""bench/micro/compare.py on files made here: medians, ratios, exit codes, refusals."""
 
 import contextlib
 import io
@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from unittest import mock
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench" / "micro"))
 import compare  # noqa: E402
 
 CONTEXT = {"host_name": "a", "num_cpus": 2, "caches": [{"type": "Data", "level": 1, "size": 32768}], "library_build_type": "release"}

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What validation/run.py reads off its runs, against closed forms and independent values."""
+"""What the programs of validation/ and bench/ read off their runs and write into pages, against closed forms and independent values."""
 
 import math
 import pathlib
@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "validation"))
-from harness import outputs, shear, spectral, tables, theory  # noqa: E402
+from harness import extrapolation, outputs, runs, shear, spectral, tables, theory  # noqa: E402
 
 
 class Theory(unittest.TestCase):
@@ -62,7 +62,24 @@ class Spectral(unittest.TestCase):
         self.assertLess(np.abs(spectral.paper_filter(axes, axes @ gradient.T) - axes @ gradient.T).max(), 1e-12)
 
 
+class Extrapolation(unittest.TestCase):
+    def test_polynomials_in_the_spacing_have_their_value_at_zero(self):
+        for spacings in ((0.1, 0.2), (0.0625, 0.0833, 0.125)):
+            polynomial = np.polynomial.Polynomial([1.7, -3.0, 5.0][: len(spacings)])
+            self.assertAlmostEqual(extrapolation.at_zero(spacings, [polynomial(h) for h in spacings]), 1.7, places=12)
+            self.assertAlmostEqual(sum(extrapolation.weights_at_zero(spacings)), 1.0, places=12)
+
+
+class Keys(unittest.TestCase):
+    def test_numbers_and_fractions_of_scenes(self):
+        for text, value in (("1/48", 1 / 48), (0.25, 0.25), ("3", 3.0), (1e-9, 1e-9), ("5/6", 5 / 6)):
+            self.assertEqual(runs.number(text), value)
+
+
 class Courses(unittest.TestCase):
+    def test_differences_of_inclinations_count_modulo_half_a_turn(self):
+        np.testing.assert_allclose(outputs.turned(np.array([0.0, 90.0, -90.0, 91.0, -179.0, 540.0])), [0, 90, 90, -89, 1, 0], atol=1e-12)
+
     def test_half_turns_of_a_steady_rotation(self):
         time = np.linspace(0, 20, 401)
         angle = 90 - 25 * time
@@ -86,6 +103,12 @@ class Tables(unittest.TestCase):
         filled = tables.insert(page, {"one": "new"})
         self.assertEqual(filled, page.replace("old", "new"))
         self.assertEqual(tables.insert(filled, {"one": "new"}), filled)
+
+    def test_a_block_has_its_tables_and_its_source_between_empty_lines(self):
+        one = tables.table("One", ["a", "b"], [[1, 0.123456]])
+        text = "One\n\n| a | b |\n|---|---|\n| 1 | 0.1235 |"
+        self.assertEqual(tables.block([one]), f"\n{text}\n")
+        self.assertEqual(tables.block([one, one], "`made so`"), f"\n{text}\n\n{text}\n\n`made so`\n")
 
 
 if __name__ == "__main__":

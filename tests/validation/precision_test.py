@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What bench/work_precision.py measures: distances of membranes, extrapolation, fronts and levels, against closed forms."""
+"""What bench/studies/work_precision.py measures: distances of membranes, extrapolation, fronts and levels, against closed forms."""
 
 import pathlib
 import sys
@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "bench")]
+sys.path[:0] = [str(ROOT / "validation"), str(ROOT / "bench" / "studies")]
 from harness import spectral  # noqa: E402
 from precision import cases, errors, study  # noqa: E402
 
@@ -56,12 +56,6 @@ class Distance(unittest.TestCase):
 
 
 class References(unittest.TestCase):
-    def test_polynomials_in_the_spacing_have_their_value_at_zero(self):
-        for spacings in ((0.1, 0.2), (0.0625, 0.0833, 0.125)):
-            weights = errors.to_zero(spacings)
-            polynomial = np.polynomial.Polynomial([1.7, -3.0, 5.0][: len(spacings)])
-            self.assertAlmostEqual(sum(w * polynomial(h) for w, h in zip(weights, spacings)), 1.7, places=12)
-
     def test_angles_are_combined_and_compared_modulo_half_a_turn(self):
         sphere = ellipsoid(16, (1, 1, 1))
         found = errors.combination([(2.0, state(sphere, [89, -89, 10])), (-1.0, state(sphere, [88, 89, 12]))])

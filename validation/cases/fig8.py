@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from harness import drawing, outputs, shear, theory
+from harness import drawing, shear, theory
 from harness.tables import signed, table
 
 TITLE = "steady angle at viscosity ratios 2.7, 5, 8 against excess area (figure 8)"

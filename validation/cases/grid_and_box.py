@@ -10,7 +10,8 @@ against the fit to the next two, and that of the same effect at h = 0.1.
 
 import numpy as np
 
-from harness import drawing, outputs, shear, theory
+from harness import drawing, shear, theory
+from harness.extrapolation import at_zero
 from harness.runs import Run
 from harness.tables import percent, table
 
@@ -48,16 +49,11 @@ def runs_of(context):
             yield volume, "corrected", width, 0.1
 
 
-def to_zero(steps, values):
-    """The polynomial through all points, at zero."""
-    return float(np.polyval(np.polyfit(steps, values, len(steps) - 1), 0.0))
-
-
 def extrapolate(found, volume, hs, key):
     """found[scheme, width, h]; the value, its error, and the parts they are made of."""
     at = lambda scheme, width, h: found[volume, scheme, width, h][key]  # noqa: E731
-    limits = {s: to_zero(hs[-3:], [at(s, 12, h) for h in hs[-3:]]) for s in SCHEMES}
-    linear = {s: to_zero(hs[-2:], [at(s, 12, h) for h in hs[-2:]]) for s in SCHEMES}
+    limits = {s: at_zero(hs[-3:], [at(s, 12, h) for h in hs[-3:]]) for s in SCHEMES}
+    linear = {s: at_zero(hs[-2:], [at(s, 12, h) for h in hs[-2:]]) for s in SCHEMES}
     grid_error = max(abs(limits["corrected"] - limits["plain"]), abs(limits["corrected"] - linear["corrected"]))
     wall = lambda a, b: (at("corrected", a, 0.2) - at("corrected", b, 0.2)) / (a**-3 - b**-3)  # noqa: E731
     far, near = wall(16, 24), wall(12, 16)

@@ -1,3 +1,3 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the cases of validation/run.py share: runs of scenes, their files, theory, tables and pictures."""
+"""What the programs of validation/ and bench/ share: their options, runs of scenes and plans, files of runs, theory, tables and pictures."""

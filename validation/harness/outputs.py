@@ -14,6 +14,11 @@ def summary(folder):
     return json.loads(file.read_text()) if file.exists() else None
 
 
+def folders(of):
+    """Those in a folder that hold a run, by name."""
+    return sorted(file.parent for file in of.glob("*/summary.json"))
+
+
 def course(folder):
     """diagnostics.csv as arrays by column; what is not defined is nan."""
     with open(folder / "diagnostics.csv") as file:
@@ -77,6 +82,11 @@ def unwrapped(angle_deg):
     """Inclinations in (-90, 90] as a continuous angle, starting where they do."""
     valid = np.where(np.isnan(angle_deg), 0.0, angle_deg)
     return np.unwrap(valid, period=180.0)
+
+
+def turned(degrees):
+    """A difference of inclinations, in (-90, 90]."""
+    return -((-degrees + 90.0) % 180.0 - 90.0)
 
 
 def thinned(times, *columns, count=61):

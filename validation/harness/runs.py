@@ -11,7 +11,9 @@ import hashlib
 import json
 import os
 import pathlib
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -56,6 +58,28 @@ def _text(value):
     return str(value)
 
 
+def number(value):
+    """Of a key that a scene may have as a fraction in quotes: 0.25, "1/4"."""
+    above, _, below = str(value).partition("/")
+    return float(above) / float(below or 1)
+
+
+def environment(threads=1):
+    """Of a program whose threads do not keep those of others waiting."""
+    return os.environ | {"OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
+
+
+def children_seconds():
+    """Of the processor, of all programs that were run and waited for."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def say(line):
+    """At once, also into a file."""
+    print(line, flush=True)
+
+
 def finished(run):
     """A run that stopped by itself (a blow-up) is a result too."""
     summary = outputs.summary(run.folder())
@@ -72,6 +96,11 @@ def stop():
         process.terminate()
 
 
+def stop_when_told():
+    """SIGTERM ends the program after the runs under way have been ended."""
+    signal.signal(signal.SIGTERM, lambda *_: (stop(), sys.exit(143)))
+
+
 def execute(run, program, report):
     """Runs to the end; True if it is there. The seconds of all attempts are added up in run.json."""
     folder = run.folder()
@@ -86,10 +115,9 @@ def execute(run, program, report):
         command += ["--set", setting]
     if resumed:
         command += ["--restart", str(checkpoint)]
-    environment = os.environ | {"OMP_NUM_THREADS": "1", "OMP_WAIT_POLICY": "passive"}
     start = time.monotonic()
     with open(folder / "log.txt", "a") as log:
-        process = subprocess.Popen(command, cwd=ROOT, env=environment, stdout=log, stderr=log)
+        process = subprocess.Popen(command, cwd=ROOT, env=environment(), stdout=log, stderr=log)
         _under_way.add(process)
         try:
             cpu = _wait(process, lambda: report(run, outputs.last_time(folder), time.monotonic() - start))
@@ -130,12 +158,12 @@ def _record(folder):
     return json.loads(file.read_text()) if file.exists() else {}
 
 
-def execute_all(runs, program, jobs, show):
+def execute_all(runs, program, jobs):
     """Runs what is not done yet, `jobs` at a time, each with one thread."""
     missing = [run for run in runs if not finished(run)]
     seen = set()
     missing = [run for run in missing if not (run.folder() in seen or seen.add(run.folder()))]
-    show(f"{len(runs)} runs, {len(missing)} to do")
+    say(f"{len(runs)} runs, {len(missing)} to do")
 
     def report(run, reached, seconds):
         if sys.stderr.isatty():
@@ -145,7 +173,7 @@ def execute_all(runs, program, jobs, show):
         start = time.monotonic()
         execute(run, program, report)
         summary = outputs.summary(run.folder())
-        show(f"  {run.name}: {summary['status']} at t = {summary['time']:.4g}, {summary['steps']} steps, {time.monotonic() - start:.0f} s")
+        say(f"  {run.name}: {summary['status']} at t = {summary['time']:.4g}, {summary['steps']} steps, {time.monotonic() - start:.0f} s")
 
     if jobs == 1:
         for run in missing:

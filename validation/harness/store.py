@@ -36,6 +36,11 @@ def compact(result):
     return "{\n" + ",\n".join(lines) + "\n}"
 
 
+def write(file, result):
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(compact(result) + "\n")
+
+
 def seconds(value):
     if value is None:
         return "not run"

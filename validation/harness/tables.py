@@ -4,6 +4,9 @@
 
 import math
 import re
+import textwrap
+
+WIDTH = 150  # of lines of a page that are not a table's
 
 
 def table(title, columns, rows):
@@ -42,6 +45,17 @@ def text(stored):
     cells = [stored["columns"]] + [[number(cell) for cell in row] for row in stored["rows"]]
     widths = [max(len(row[i]) for row in cells) for i in range(len(stored["columns"]))]
     return "\n".join([stored["title"]] + ["  " + "  ".join(c.rjust(w) for c, w in zip(row, widths)) for row in cells])
+
+
+def block(stored, source=""):
+    """Tables and the line that says where they come from, as they stand in a page."""
+    lines = textwrap.fill(source, WIDTH, break_long_words=False, break_on_hyphens=False)
+    return "\n" + "\n\n".join(markdown(one) for one in stored) + "\n" + (f"\n{lines}\n" if source else "")
+
+
+def write_into(page, blocks):
+    """insert() into the file of a page."""
+    page.write_text(insert(page.read_text(), blocks))
 
 
 def insert(document, blocks):

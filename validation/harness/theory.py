@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Theories of a vesicle in shear flow of rate 1.
 
-Keller and Skalak's fluid ellipsoid (J. Fluid Mech. 120, 27, 1982), for prolates. Its shape is given and does not deform, and its membrane velocity keeps
-areas only on the whole: a model at any reduced volume below 1.
+Keller and Skalak's fluid ellipsoid (J. Fluid Mech. 120, 27, 1982), for prolates. Its shape is given and does not deform, and its membrane
+velocity keeps areas only on the whole: a model at any reduced volume below 1.
 The membrane moves as v = nu (-(a/b) z', (b/a) x') in the frame of the ellipsoid with semi-axes a (long) and b, which turns as
 d theta/dt = -1/2 + C cos 2 theta. For C > 1/2 it tank-treads at cos 2 theta = 1/(2 C), otherwise it tumbles.
 """

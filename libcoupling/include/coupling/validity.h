@@ -61,7 +61,7 @@ constexpr double fewest_cells_across = 8.0;
 /// not resolve.
 constexpr double least_resolved_gap = 2.0;
 /// Relative error of inclination and frequency in tank-treading per spacing over radius, at ratio 1: 3.5 % at 0.1875
-/// (validation/thickening.md).
+/// (validation/studies/thickening.md).
 constexpr double error_per_spacing = 0.19,
                  corrected_error_per_spacing = 0.016;  ///< with the thickness correction: 0.3 % at 0.1875
 

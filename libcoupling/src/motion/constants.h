@@ -11,7 +11,7 @@ namespace vesiflow::coupling::constants {
 // --- Degrees that shape following keeps (motion/following_parameters.h)
 
 /// Waves of degree n have the wavenumber n/R on a sphere: those of k h < 0.7 pi are resolved, n < 0.7 pi R/h. ADR 6,
-/// validation/integrators.md: with 0.95 pi (and a damping of 8) waves of degree 30 to 34 at the tips doubled every
+/// validation/studies/integrators.md: with 0.95 pi (and a damping of 8) waves of degree 30 to 34 at the tips doubled every
 /// 0.85 units of time at 128^3.
 inline constexpr double largest_resolved_kh = 0.7 * std::numbers::pi;
 /// An ellipsoid has degrees up to 2, a pear 3: fewer are no shape.
@@ -21,7 +21,7 @@ inline constexpr int fewest_degrees = 4;
 
 /// The highest degree p - 1 decays at this many times the rate U/R at which the membrane is swept along, degree n by
 /// (n/(p - 1))^8 of it: waves near the resolution of the grid, which the fluid hardly feels, would otherwise grow.
-/// validation/integrators.md: half of it is too little (with 0.95 pi above). The power leaves half of the degrees
+/// validation/studies/integrators.md: half of it is too little (with 0.95 pi above). The power leaves half of the degrees
 /// with less than 1/256 of the rate.
 inline constexpr double damping_of_highest_degree = 16.0;
 inline constexpr int damping_power = 8;

@@ -128,7 +128,7 @@ struct CholmodOptions {
 /// stress form, 11 for a number mu in the stress form (measured for a smooth sphere, interface of two cells, 16^3 to
 /// 48^3; random right-hand sides). Slow smooth modes show later: with alpha near 0 and the right-hand sides of a flow
 /// the stress form took 46, 50 and 58 for ratio 20 on 32^3, 64^3 and 128^3, and 78, 86 and 106 for ratio 100
-/// (validation/viscosity_treatments.md).
+/// (validation/studies/viscosity_treatments.md).
 ///
 /// "cholmod" solves the problem itself, with a factor that may lag.
 struct PcgOptions {

@@ -32,7 +32,7 @@ enum class Inertia {
 /// How the viscous term div(mu (grad u + grad u^T)) is taken where mu is a field; mu_ref is its largest value.
 ///
 /// At Reynolds numbers of 1e-3 the pressure, which lags by a step, limits all three: take inertia = none there, which
-/// treats the stress implicitly always. Measured: validation/viscosity_treatments.md.
+/// treats the stress implicitly always. Measured: validation/studies/viscosity_treatments.md.
 enum class ViscousTreatment {
   /// mu_ref Lap u* + div((mu - mu_ref)(grad u^k + grad u^k^T)), the paper's: an error O(ratio dt)
   explicit_,

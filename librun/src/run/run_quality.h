@@ -65,7 +65,7 @@ class RunQuality {
   struct SceneNumbers {
     double tension_number, stable_tension_number;  ///< the second infinite where there is no limit
     double convection_step_ratio;                  ///< largest step over the stable one; 0 without convection
-    double grid_error;  ///< relative, of angles and frequencies in steady flow (validation/thickening.md)
+    double grid_error;  ///< relative, of angles and frequencies in steady flow (validation/studies/thickening.md)
   };
   SceneNumbers scene_numbers() const;
 

@@ -9,7 +9,7 @@
 namespace vesiflow::run {
 
 /// method.accuracy: what a target for the largest relative error (position, angle, frequency, deformation) asks of grid, mesh and step,
-/// found by bench/work_precision.py and verified on scenes that were not used to find it (docs/performance.md#presets).
+/// found by bench/studies/work_precision.py and verified on scenes that were not used to find it (docs/performance.md#presets).
 
 /// Sets domain.cells, mesh.latitudes, time.step, membrane.sigma0, time.markers and coupling.thickness_correction to what the target asks
 /// for; nothing where there is none. The box, the flow and the vesicles must be known.

@@ -42,7 +42,7 @@ struct LaplacianOptions {
 /// Upsampling::automatic meets a factor for the first time. One thread at a time.
 ///
 /// Max error of Lap H, N = 32, 64, 128, cartesian, twice, not truncated: 7.5e-3, 5.0e-9, 1.7e-8 on the 1:2:4 ellipsoid
-/// (paper: 4.2, 0.23, 0.22), see validation/table1.md.
+/// (paper: 4.2, 0.23, 0.22), see validation/studies/table1.md.
 class VESIFLOW_VESICLE_EXPORT LaplaceBeltrami {
  public:
   /// For surfaces on that grid.

@@ -22,7 +22,7 @@ Scene without_output(int cells, int latitudes, std::size_t vesicles) {
   return scene;
 }
 
-// Peak resident megabytes of `vesicles` with the scenes of bench/growth.py, two steps on 40^3 cells.
+// Peak resident megabytes of `vesicles` with the scenes of bench/studies/growth.py, two steps on 40^3 cells.
 TEST(MemoryPlan, IsWithinATenthOfWhatWasMeasuredForAnyNumberOfVesicles) {
   struct Measured {
     int latitudes;
