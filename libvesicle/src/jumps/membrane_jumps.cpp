@@ -20,9 +20,16 @@ const SphereGrid& checked(const SphereGrid& grid) {
 }
 
 const JumpParameters& checked(const JumpParameters& parameters, const SphereGrid& grid) {
-  check_argument(parameters.degrees >= 0 && parameters.degrees <= grid.latitudes(), "degrees", parameters.degrees,
-                 "in [0, latitudes]");
+  const auto check = [&](int degrees, const char* name) {
+    check_argument(degrees >= 0 && degrees <= grid.latitudes(), name, degrees, "in [0, latitudes]");
+  };
+  check(parameters.degrees, "degrees");
+  check(parameters.jump_degrees, "jump_degrees");
   return parameters;
+}
+
+int first_given(int degrees, int otherwise) {
+  return degrees > 0 ? degrees : otherwise;
 }
 
 /// The smooth cut. At the first degree that is not kept it is exp(-36), of the size of rounding.
@@ -75,12 +82,12 @@ class MembraneJumps::Implementation {
   Implementation(const SphereGrid& grid, const JumpParameters& parameters)
       : grid_(checked(grid)),
         parameters_(checked(parameters, grid)),
-        kept_degrees_(parameters.degrees == 0 ? grid.latitudes() : parameters.degrees),
-        kept_(kept_degrees_, grid),
+        of_fields_(first_given(parameters.degrees, grid.latitudes()), grid),
+        of_jumps_(first_given(parameters.jump_degrees, of_fields_.degrees()), grid),
         all_(grid.latitudes(), grid),
         calculus_(grid),
         primary_(grid.size(), primary_fields),
-        jumps_(grid.size(), JumpColumns::with_velocity_jump),
+        jumps_(Eigen::ArrayXXd::Zero(grid.size(), JumpColumns::with_velocity_jump)),
         force_(grid.size(), 3),
         derivatives_(grid.size(), primary_fields) {}
 
@@ -102,7 +109,7 @@ class MembraneJumps::Implementation {
     columns_ = JumpColumns::without_velocity_jump;
     primary_jumps(filtered(force));
     derive<false>();
-    expand();
+    expand(of_jumps_, jumps_.leftCols(columns_), coefficients_);
   }
 
   void compute(const VectorField& force, const VectorField& velocity_jump) {
@@ -113,7 +120,7 @@ class MembraneJumps::Implementation {
     find_trace_gradient();
     primary_jumps_with_velocity(filtered(force));
     derive<true>();
-    expand();
+    expand(of_jumps_, jumps_.leftCols(columns_), coefficients_);
   }
 
  private:
@@ -125,29 +132,30 @@ class MembraneJumps::Implementation {
     if (!has_shape_) throw std::logic_error("MembraneJumps::compute() before update()");
   }
 
-  void cut(Coefficients& coefficients) const {
-    if (parameters_.degrees > 0 && parameters_.cut == DegreeCut::smooth)
-      scale_degrees(coefficients, [&](int n) { return taper(n, parameters_.degrees); });
+  /// Coefficients of the degrees that are kept.
+  void expand(const SphericalHarmonics& kept, const SphericalHarmonics::Input& values,
+              Coefficients& coefficients) const {
+    kept.analysis(values, coefficients);
+    if (kept.degrees() < grid_.latitudes() && parameters_.cut == DegreeCut::smooth)
+      scale_degrees(coefficients, [&](int n) { return taper(n, kept.degrees()); });
   }
 
   const VectorField& filtered(const VectorField& force) {
     if (parameters_.degrees == 0) return force;
-    kept_.analysis(force, field_coefficients_);
-    cut(field_coefficients_);
-    kept_.synthesis(field_coefficients_, force_);
+    expand(of_fields_, force, field_coefficients_);
+    of_fields_.synthesis(field_coefficients_, force_);
     return force_;
   }
 
   /// Writes [u] and takes the derivatives of q.
   void differentiate(const VectorField& velocity_jump) {
     auto values = jumps_.middleCols<3>(JumpColumns::velocity);
-    kept_.analysis(velocity_jump, field_coefficients_);
-    cut(field_coefficients_);
+    expand(of_fields_, velocity_jump, field_coefficients_);
     if (parameters_.degrees == 0)
       values = velocity_jump;
     else
-      kept_.synthesis(field_coefficients_, values);
-    derivatives_.evaluate(kept_, field_coefficients_);
+      of_fields_.synthesis(field_coefficients_, values);
+    derivatives_.evaluate(of_fields_, field_coefficients_);
   }
 
   void find_trace_gradient() {
@@ -253,16 +261,11 @@ class MembraneJumps::Implementation {
     }
   }
 
-  void expand() {
-    kept_.analysis(jumps_.leftCols(columns_), coefficients_);
-    cut(coefficients_);
-  }
-
   SphereGrid grid_;
   JumpParameters parameters_;
-  int kept_degrees_;
-  SphericalHarmonics kept_;  // of the degrees that are kept
-  SphericalHarmonics all_;   // of all degrees
+  SphericalHarmonics of_fields_;  // of the degrees of F and q that are kept
+  SphericalHarmonics of_jumps_;   // of those of the jumps
+  SphericalHarmonics all_;
   MarkerCalculus calculus_;
   bool has_shape_ = false;
   bool has_trace_gradient_ = false;  // only q needs it
