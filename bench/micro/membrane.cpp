@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "vesicle/membrane.h"
+#include "vesicle/membrane_jumps.h"
 #include "vesicle/shapes.h"
 
 namespace {
@@ -62,6 +63,26 @@ void velocity_filter(benchmark::State& state) {
   for (auto _ : state) membrane.filter_velocity(velocity, 1e-3, filtered);
 }
 
+void jumps_of_shape(benchmark::State& state) {
+  Shape shape(static_cast<int>(state.range(0)));
+  MembraneJumps jumps(shape.surface.grid());
+  for (auto _ : state) jumps.update(shape.surface);
+}
+void jumps_of_force(benchmark::State& state) {
+  Shape shape(static_cast<int>(state.range(0)));
+  MembraneJumps jumps(shape.surface.grid());
+  jumps.update(shape.surface);
+  jumps.compute(shape.positions);
+  for (auto _ : state) jumps.compute(shape.positions);
+}
+void jumps_of_force_and_velocity(benchmark::State& state) {
+  Shape shape(static_cast<int>(state.range(0)));
+  MembraneJumps jumps(shape.surface.grid());
+  jumps.update(shape.surface);
+  jumps.compute(shape.positions, shape.positions);
+  for (auto _ : state) jumps.compute(shape.positions, shape.positions);
+}
+
 void sizes(benchmark::internal::Benchmark* benchmark) {
   for (const int latitudes : {32, 64, 128, 256}) benchmark->Arg(latitudes);
   benchmark->ArgName("latitudes")->Unit(benchmark::kMicrosecond);
@@ -76,5 +97,8 @@ BENCHMARK_CAPTURE(laplacian_of_h, paper, LaplacianForm::paper, Upsampling::twice
 BENCHMARK(tension_force)->Apply(sizes);
 BENCHMARK(forces)->Apply(sizes);
 BENCHMARK(velocity_filter)->Apply(sizes);
+BENCHMARK(jumps_of_shape)->Apply(sizes);
+BENCHMARK(jumps_of_force)->Apply(sizes);
+BENCHMARK(jumps_of_force_and_velocity)->Apply(sizes);
 
 }  // namespace
