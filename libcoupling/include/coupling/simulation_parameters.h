@@ -22,6 +22,12 @@
 
 namespace vesiflow::coupling {
 
+/// How a membrane and the grid of the fluid know of each other.
+enum class CouplingMethod {
+  delta,  ///< by a regularized delta function, over which the membrane is smeared: of first order in the spacing
+  sharp   ///< by the jumps at a membrane without thickness, of second order: docs/jump_conditions.md
+};
+
 /// Shapes that a vesicle may start with. The surfaces of `coefficients` and `mesh` are both in
 /// VesicleParameters::surface; the two differ in the kind of file that it comes from.
 enum class Shape {
@@ -92,6 +98,7 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
 
   /// How markers and grid are coupled.
   struct Coupling {
+    CouplingMethod method = CouplingMethod::delta;          ///< how a membrane and the grid know of each other
     DeltaKernel kernel = DeltaKernel::smoothed_four_point;  ///< regularized delta function
 
     /// Whether to add to the velocity of membranes what the width of the kernel takes from it.

@@ -14,6 +14,9 @@ namespace vesiflow::coupling::constants {
 /// validation/studies/integrators.md: with 0.95 pi (and a damping of 8) waves of degree 30 to 34 at the tips doubled every
 /// 0.85 units of time at 128^3.
 inline constexpr double largest_resolved_kh = 0.7 * std::numbers::pi;
+/// Of a sharp membrane: above, no variant of the jump corrections resolves what a force of this degree does, and the
+/// two-phase iteration has an eigenvalue beyond -1 (docs/jump_conditions.md).
+inline constexpr double largest_resolved_kh_of_sharp_membrane = 1.5;
 /// An ellipsoid has degrees up to 2, a pear 3: fewer are no shape.
 inline constexpr int fewest_degrees = 4;
 

@@ -9,7 +9,7 @@
 namespace vesiflow::coupling {
 
 MembraneResponse FollowingParameters::response() const {
-  return {std::max(shape.degrees, grid.degrees), shape.radius, grid.spacing, grid.thickness};
+  return {std::max(shape.degrees, grid.degrees), shape.radius, grid.spacing, grid.thickness, grid.is_sharp};
 }
 
 int grid_degrees(double radius, double spacing) {
@@ -18,6 +18,11 @@ int grid_degrees(double radius, double spacing) {
 
 int resolved_degrees(int chosen, double radius, double spacing) {
   return std::max(constants::fewest_degrees, std::min(chosen, grid_degrees(radius, spacing)));
+}
+
+int sharp_degrees(double radius, double spacing) {
+  return std::max(constants::fewest_degrees,
+                  1 + static_cast<int>(constants::largest_resolved_kh_of_sharp_membrane * radius / spacing));
 }
 
 }  // namespace vesiflow::coupling

@@ -18,7 +18,8 @@ struct FollowingParameters {
     int degrees = 0;       ///< of waves that the grid of the fluid resolves on the sphere of the membrane's area
     double spacing = 0.0;  ///< the finest
     MembraneResponse::SecondMoments thickness;  ///< of the membrane as the fluid feels it
-    bool is_corrected = false;                  ///< the membrane answers as a thin one
+    bool is_corrected = false;                  ///< the membrane answers as a thin one, by a correction
+    bool is_sharp = false;                      ///< it is one
   } grid;
   double unit_of_length = 1.0;  ///< the effective radius of the vesicle
 
@@ -30,5 +31,7 @@ struct FollowingParameters {
 /// keeps, where `chosen` is what the mesh is fine enough for.
 int grid_degrees(double radius, double spacing);
 int resolved_degrees(int chosen, double radius, double spacing);
+/// Degrees of forces that the grid resolves of a sharp membrane, n h/R < 1.5.
+int sharp_degrees(double radius, double spacing);
 
 }  // namespace vesiflow::coupling

@@ -19,12 +19,18 @@ MembraneResponse::SecondMoments MembraneResponse::second_moments(DeltaKernel ker
   });
 }
 
-MembraneResponse::MembraneResponse(int degrees, double radius, double spacing, const SecondMoments& moments)
-    : radius_(radius), spacing_(spacing), moments_(moments), modes_(static_cast<std::size_t>(degrees)) {}
+MembraneResponse::MembraneResponse(int degrees, double radius, double spacing, const SecondMoments& moments,
+                                   bool is_sharp)
+    : radius_(radius),
+      spacing_(spacing),
+      moments_(moments),
+      is_sharp_(is_sharp),
+      modes_(static_cast<std::size_t>(degrees)) {}
 
 void MembraneResponse::update(double a, double mu) {
   constexpr int points = constants::response_quadrature_points;
-  constexpr double in_plane_decay = constants::in_plane_decay, owed_decay = constants::in_plane_decay_of_owed;
+  const double in_plane_decay = is_sharp_ ? 0.0 : constants::in_plane_decay,
+               owed_decay = is_sharp_ ? 0.0 : constants::in_plane_decay_of_owed;
   if (a == a_ && mu == mu_) return;
   a_ = a;
   mu_ = mu;

@@ -44,7 +44,8 @@ class MembraneResponse {
   static SecondMoments second_moments(DeltaKernel kernel);
 
   /// \param radius of the sphere of the membrane's area
-  MembraneResponse(int degrees, double radius, double spacing, const SecondMoments& moments);
+  /// \param is_sharp whether the delta function takes nothing off within the sheet either
+  MembraneResponse(int degrees, double radius, double spacing, const SecondMoments& moments, bool is_sharp = false);
 
   /// Recomputes the modes if a or mu has changed.
   void update(double a, double mu);
@@ -56,6 +57,7 @@ class MembraneResponse {
  private:
   double radius_, spacing_;
   SecondMoments moments_;
+  bool is_sharp_;
   double a_ = -1.0, mu_ = 0.0;
   std::vector<Mode> modes_;
 };

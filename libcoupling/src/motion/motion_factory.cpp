@@ -40,7 +40,9 @@ FollowedShape::Parameters shape_parameters(const SimulationParameters& all, cons
   shape.radius = std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi));
   const int chosen =
       all.mesh.normal_degrees > 0 ? all.mesh.normal_degrees : vesicle::two_thirds_degrees(all.latitudes(number));
-  shape.degrees = resolved_degrees(chosen, shape.radius, all.spacing());
+  shape.degrees = all.coupling.method == CouplingMethod::sharp
+                      ? std::min(chosen, sharp_degrees(shape.radius, all.spacing()))
+                      : resolved_degrees(chosen, shape.radius, all.spacing());
   shape.has_tension = membrane.parameters().sigma0 > 0.0;
   shape.ties_strain = shape.has_tension && all.membrane.volume != vesicle::VolumeControl::none;
 
@@ -66,7 +68,9 @@ FollowingParameters following_parameters(const SimulationParameters& all, const 
   parameters.grid.spacing = all.finest_spacing();
   parameters.grid.is_corrected = all.coupling.thickness_correction;
   // A correction of the thickness makes the answer that of a thin membrane.
-  if (!parameters.grid.is_corrected) parameters.grid.thickness = MembraneResponse::second_moments(all.coupling.kernel);
+  parameters.grid.is_sharp = all.coupling.method == CouplingMethod::sharp;
+  if (!parameters.grid.is_corrected && !parameters.grid.is_sharp)
+    parameters.grid.thickness = MembraneResponse::second_moments(all.coupling.kernel);
   parameters.unit_of_length = all.vesicles[vesicle].radius;
   return parameters;
 }

@@ -98,6 +98,7 @@ void visit(SimulationParameters::Fluid& fluid, ParameterVisitor& v) {
 }
 
 void visit(SimulationParameters::Coupling& coupling, ParameterVisitor& v) {
+  visit_choice(v, "coupling.method", coupling.method, {"delta", "sharp"});
   visit_choice(v, "coupling.kernel", coupling.kernel, delta_kernel_names);
   v.boolean("coupling.thickness_correction", coupling.thickness_correction);
 }

@@ -157,6 +157,26 @@ void check_thickness(const SimulationParameters& parameters) {
         validity::stable_g_with_thickness_correction * parameters.time.step / parameters.tension_number()));
 }
 
+// What a sharp membrane does not know yet.
+void check_sharp(const SimulationParameters& parameters) {
+  if (parameters.coupling.method != CouplingMethod::sharp) return;
+  const auto refuse = [](const std::string& why) {
+    throw ParameterError(fmt::format("coupling.method = \"sharp\": {}; or take \"delta\"", why));
+  };
+  if (!parameters.follows_shape())
+    refuse(
+        fmt::format("knows a membrane in the middle of a step only, not with time.markers = \"{}\"; take "
+                    "\"shape_following\" or \"implicit\"",
+                    name(parameters.time.markers)));
+  if (parameters.coupling.thickness_correction)
+    refuse("a membrane without thickness needs no coupling.thickness_correction; set it to false");
+  if (parameters.has_viscosity_contrast())
+    refuse("takes equal viscosities inside and outside; set fluid.viscosity_ratio and vesicles.*.viscosity_ratio to 1");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (parameters.domain.mirror[axis])
+      refuse(fmt::format("takes no mirrors; set domain.mirror[{}] to false and compute the whole box", axis));
+}
+
 void check_gravity(const SimulationParameters& parameters) {
   const bool differs =
       std::ranges::any_of(parameters.vesicles, [](const auto& v) { return v.density_difference != 0.0; });
@@ -295,7 +315,7 @@ void check(const SimulationParameters& parameters, const Flow& flow) {
   if (parameters.vesicles.empty()) mistakes.add("vesicles: a simulation needs at least one");
   mistakes.refuse();  // what follows counts in spacings and steps
   for (const auto check :
-       {check_physics, check_tension, check_time, check_marker_motion, check_thickness, check_gravity})
+       {check_physics, check_tension, check_time, check_marker_motion, check_thickness, check_sharp, check_gravity})
     mistakes.gather([&] { check(parameters); });
   mistakes.gather([&] { check_flow(parameters, flow); });
   bool have_shapes = true;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "coupling/initial_shape.h"
+#include "motion/following_parameters.h"
 #include "motion/motion_factory.h"
 #include "phase_timer.h"
 
@@ -61,6 +63,11 @@ ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const F
     : membrane(make_membrane(parameters, number, start)),
       transfer(grid, parameters.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
       motion(make_membrane_motion(parameters, flow, number, membrane)) {
+  if (parameters.coupling.method == CouplingMethod::sharp) {
+    const double radius = std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi));
+    const int degrees = std::min(parameters.latitudes(number), sharp_degrees(radius, parameters.spacing()));
+    sharp.emplace(grid, membrane.surface().grid(), SharpTransfer::Parameters{.degrees = degrees});
+  }
   if (parameters.coupling.thickness_correction)
     thickness_.emplace(membrane, parameters.coupling.kernel, parameters.spacing(),
                        0.5 * (1.0 + parameters.viscosity_ratio(number)));
@@ -74,6 +81,11 @@ void ImmersedVesicle::FlowAtMarkers::operator()(const Positions& positions, vesi
 
 void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions& positions,
                                                 vesicle::VectorField& velocity) const {
+  if (vesicle_.sharp) {
+    const PhaseTimer timer(vesicle_.moving.interpolate);
+    vesicle_.sharp->interpolate(*vesicle_.velocity_, velocity);
+    return;
+  }
   {
     const PhaseTimer timer(vesicle_.moving.interpolate);
     vesicle_.transfer.update(positions);
@@ -102,6 +114,26 @@ void ImmersedVesicle::predict(double dt) {
   update();
 }
 
+void ImmersedVesicle::meet_grid() {
+  transfer.update(membrane.positions());
+  if (!sharp) return;
+  all_force_ = force();
+  if (const vesicle::VectorField* owed = motion->owed_force()) all_force_ += *owed;
+  sharp->update(membrane.surface(), all_force_);
+}
+
+void ImmersedVesicle::clear(fluid::NavierStokes& fluid) {
+  transfer.clear(fluid.force());
+  if (sharp) sharp->clear(fluid.force(), fluid.divergence_source());
+}
+
+void ImmersedVesicle::put_force(fluid::NavierStokes& fluid) {
+  if (sharp) return sharp->add_to(fluid.force(), fluid.divergence_source(), transfer);
+  transfer.spread(force(), membrane.surface().area_weight(), fluid.force());
+  if (const vesicle::VectorField* owed = motion->owed_force())
+    transfer.spread(*owed, membrane.surface().area_weight(), fluid.force());
+}
+
 void ImmersedVesicle::advance(double dt, const fluid::FaceVector& previous_velocity,
                               const fluid::FaceVector& velocity) {
   moving = {};
@@ -122,6 +154,13 @@ void ImmersedVesicle::restore_history(double dt, std::span<const double> history
 }
 
 void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {
+  if (sharp) {
+    update();
+    meet_grid();
+    sharp->interpolate(velocity, velocities.fluid);
+    motion->mesh_velocity(dt, membrane, velocities);
+    return;
+  }
   transfer.update(membrane.positions());
   transfer.interpolate(velocity, velocities.fluid);
   if (thickness_) {

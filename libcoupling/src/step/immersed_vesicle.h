@@ -14,6 +14,7 @@
 #include "motion/membrane_motion.h"
 #include "motion/thickness_correction.h"
 #include "step/velocity_noise.h"
+#include "transfer/sharp_transfer.h"
 #include "vesicle/membrane.h"
 
 namespace vesiflow::coupling {
@@ -31,6 +32,13 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
+  /// Looks up where the membrane is on the grid, and what its force does there.
+  void meet_grid();
+  /// Takes off the grid what it has put there before.
+  void clear(fluid::NavierStokes& fluid);
+  /// Puts its force on it.
+  void put_force(fluid::NavierStokes& fluid);
+
   /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts in `moving`.
   void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity);
 
@@ -45,6 +53,7 @@ struct ImmersedVesicle {
 
   vesicle::Membrane membrane;
   MarkerTransfer transfer;
+  std::optional<SharpTransfer> sharp;  ///< where it has no thickness
   MarkerVelocities velocities;
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
@@ -57,6 +66,7 @@ struct ImmersedVesicle {
 
  private:
   std::optional<ThicknessCorrection> thickness_;
+  vesicle::VectorField all_force_;  // with what the motion owes, where the membrane is sharp
   class FlowAtMarkers final : public VelocityAt {
    public:
     explicit FlowAtMarkers(ImmersedVesicle& vesicle) : vesicle_(vesicle) {}

@@ -116,7 +116,7 @@ std::vector<double> Simulation::nearest_distances() const {
 }
 
 double Simulation::max_divergence() const {
-  return fluid::max_divergence(fluid_.velocity());
+  return fluid::max_divergence(fluid_.velocity(), fluid_.given_divergence());
 }
 
 const vesicle::Membrane& Simulation::membrane(std::size_t i) {

@@ -74,7 +74,7 @@ void Simulation::compute_forces(double dt) {
 void Simulation::spread_forces() {
   {
     const PhaseTimer timer(phases_.spread);
-    for (auto& v : vesicles_) v->transfer.clear(fluid_.force());
+    for (auto& v : vesicles_) v->clear(fluid_);
     if (fluid_force_) put_fluid_force();
   }
   {
@@ -86,15 +86,9 @@ void Simulation::spread_forces() {
     external_forces_->compute(time());
   }
   const PhaseTimer timer(phases_.spread);
-  for_each_vesicle(vesicles_.size(), [&](std::size_t i) {
-    ImmersedVesicle& v = *vesicles_[i];
-    v.transfer.update(v.membrane.positions());
-  });
-  for (auto& v : vesicles_) {  // on one grid, in this order: sums are the same for any number of threads
-    v->transfer.spread(v->force(), v->membrane.surface().area_weight(), fluid_.force());
-    if (const vesicle::VectorField* owed = v->motion->owed_force())
-      v->transfer.spread(*owed, v->membrane.surface().area_weight(), fluid_.force());
-  }
+  for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(); });
+  // On one grid, in this order: sums are the same for any number of threads.
+  for (auto& v : vesicles_) v->put_force(fluid_);
   if (!fluid_.grid().has_walls()) hold_the_fluid();
 }
 

@@ -116,7 +116,7 @@ struct FluidReport {
 /// With inertia = none a step solves `-div(mu (grad u + grad u^T)) + grad p = f`, div u = 0 with the force given and
 /// the walls at the new time (StokesSolver, from the extrapolated velocity and the last pressure).
 ///
-/// Second order in space and, for u, in time. div u = 0 to round-off. Same bits for every number of threads.
+/// Second order in space and, for u, in time. div u = 0, or what divergence_source() says, to round-off. Same bits for every number of threads.
 class VESIFLOW_FLUID_EXPORT NavierStokes {
  public:
   /// At rest inside, moving as told on the walls (if there are any), at time zero. The velocity solver is made, or
@@ -167,6 +167,13 @@ class VESIFLOW_FLUID_EXPORT NavierStokes {
   Vector3& uniform_force();
   /// The same, to read.
   const Vector3& uniform_force() const;
+
+  /// What div u is at the end of the coming steps, at the cells; zero where it has never been asked for, and at first.
+  /// Kept by step(), which takes its mean off it, as no flow has one. Sharp membranes state their jumps by it
+  /// (docs/jump_conditions.md). The first call allocates the field.
+  Field<Cell>& divergence_source();
+  /// The same, to read, or nullptr where it has never been asked for.
+  const Field<Cell>* given_divergence() const;
 
   /// Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver for
   /// the exception).

@@ -24,8 +24,8 @@ VESIFLOW_FLUID_EXPORT void gradient(const Field<Cell>& p, FaceVector& g);
 /// WallVelocity::set_normal_faces). No ghosts are read or set.
 VESIFLOW_FLUID_EXPORT void divergence(const FaceVector& u, Field<Cell>& d);
 
-/// max |div u| over the cells; infinite if u is not finite.
-VESIFLOW_FLUID_EXPORT double max_divergence(const FaceVector& u);
+/// max |div u - source| over the cells, source being zero where it is null; infinite if u is not finite.
+VESIFLOW_FLUID_EXPORT double max_divergence(const FaceVector& u, const Field<Cell>* source = nullptr);
 
 /// n = N(u) = 1/2 (u.grad)u + 1/2 div(u u), for one component c at its faces (paper, Section 3.3, Step 3):
 ///

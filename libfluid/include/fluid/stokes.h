@@ -27,7 +27,7 @@ struct StokesReport {
   bool converged = true;                       ///< whether the tolerance was met
   double residual = 0.0;                       ///< |r| / |b| of StokesSolver, of the result
   double momentum_residual = 0.0;              ///< the same of the first equation alone, in 2-norms
-  double divergence = 0.0;                     ///< max |div u|: round-off
+  double divergence = 0.0;                     ///< max |div u - source|: round-off
   std::array<double, 3> removed_mean_force{};  ///< without walls: subtracted from f, else zero
   double seconds = 0.0;                        ///< wall time of this solve, in seconds
 };
@@ -77,10 +77,12 @@ class VESIFLOW_FLUID_EXPORT StokesSolver {
   /// \param u holds the initial guess and takes the solution; its faces on walls and its ghosts are set from the walls.
   /// \param p holds the initial guess and takes the solution; its ghosts are not set.
   /// \param uniform_force force density that is added to `force` everywhere.
+  /// \param source what div u is, in the place of zero, at the cells; its mean, which no flow can have, must be that of
+  /// the walls' flux: zero. Null for none.
   /// \throws std::invalid_argument if a grid differs.
   /// \throws std::runtime_error if the force or the guess is not finite.
   StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
-                     const Vector3& uniform_force = {});
+                     const Vector3& uniform_force = {}, const Field<Cell>* source = nullptr);
 
   const Grid& grid() const;              ///< the grid of all fields
   const StokesOptions& options() const;  ///< the options that were given

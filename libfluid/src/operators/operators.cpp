@@ -65,8 +65,9 @@ void divergence(const FaceVector& u, Field<Cell>& d) {
   });
 }
 
-double max_divergence(const FaceVector& u) {
+double max_divergence(const FaceVector& u, const Field<Cell>* source) {
   check_grid("max_divergence", "u", u, u.grid());
+  if (source != nullptr) check_grid("max_divergence", "the source", *source, u.grid());
   const CellDivergence cell_divergence(u);
   const auto& n = u.grid().cells;
   return max_over_planes(n, [&](int k) {
@@ -75,7 +76,9 @@ double max_divergence(const FaceVector& u) {
       const double* x = u.x.row(j, k);
       const double* y = u.y.row(j, k);
       const double* z = u.z.row(j, k);
-      for (int i = 0; i < n[0]; ++i) largest = std::max(largest, magnitude(cell_divergence(x + i, y + i, z + i)));
+      const double* s = source != nullptr ? source->row(j, k) : nullptr;
+      for (int i = 0; i < n[0]; ++i)
+        largest = std::max(largest, magnitude(cell_divergence(x + i, y + i, z + i) - (s != nullptr ? s[i] : 0.0)));
     }
     return largest;
   });

@@ -51,6 +51,13 @@ FaceVector& NavierStokes::force() {
 const FaceVector& NavierStokes::force() const {
   return stepper_->force;
 }
+Field<Cell>& NavierStokes::divergence_source() {
+  if (!stepper_->source) stepper_->source.emplace(stepper_->grid);
+  return *stepper_->source;
+}
+const Field<Cell>* NavierStokes::given_divergence() const {
+  return stepper_->source ? &*stepper_->source : nullptr;
+}
 Vector3& NavierStokes::uniform_force() {
   return stepper_->uniform_force;
 }

@@ -14,6 +14,7 @@
 #include "grid/check_grid.h"
 #include "grid/planes.h"
 #include "message.h"
+#include "operators/block_algebra.h"
 #include "phase_timer.h"
 
 namespace vesiflow::fluid {
@@ -282,6 +283,10 @@ void Stepper::step(double dt) {
     throw std::invalid_argument(message("fluid: the time step is ", dt, "; it must be finite and > 0"));
   }
   check_grid("fluid", "the force", force, grid);  // others may have moved another field into it
+  if (source) {
+    check_grid("fluid", "the source of the divergence", *source, grid);
+    remove_mean(*source);
+  }
   walls.evaluate(clock.time + dt);
   try {
     if (stokes_) {
@@ -315,7 +320,7 @@ void Stepper::solve_stokes(double dt) {
   const PhaseTimer timer(timings.momentum);
   const double r = step_coefficients(dt, previous_step()).b2;
   extrapolate(velocity, previous, r, previous);
-  report.stokes = stokes_->solve(force, walls, previous, pressure, uniform_force);
+  report.stokes = stokes_->solve(force, walls, previous, pressure, uniform_force, source ? &*source : nullptr);
   if (!report.stokes.converged) {
     throw std::runtime_error(message("the Stokes solver stopped after ", report.stokes.iterations,
                                      " iterations at a relative residual of ", report.stokes.residual));
@@ -381,6 +386,7 @@ void Stepper::project(double a) {
   const PhaseTimer timer(timings.projection);
   walls.set_normal_faces(previous);
   divergence(previous, chi_);
+  if (source) add(-1.0, std::as_const(*source).unknowns(), chi_.unknowns());
   report.pressure = pressure_solver->solve(std::as_const(chi_).unknowns(), chi_.unknowns());
   check_converged("pressure", report.pressure);
   if (implicit_stress()) {

@@ -38,6 +38,7 @@ class Stepper {
   WallVelocity walls;
   FaceVector velocity, previous, force;
   Vector3 uniform_force{};
+  std::optional<Field<Cell>> source;  // what div u is, where a program has asked for it
   Field<Cell> pressure;
   FluidClock clock;
   FluidTimings timings;

@@ -44,16 +44,16 @@ class StokesSolver::System {
   System(const Grid& grid, const StokesOptions& options);
   void update(const Viscosity& mu);
   StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
-                     const Vector3& uniform_force);
+                     const Vector3& uniform_force, const Field<Cell>* source);
 
   Grid grid;
   StokesOptions options;
 
  private:
   std::array<double, 3> set_residual(const FaceVector& force, const Vector3& uniform_force, const FaceVector& u,
-                                     ConstView p);
+                                     ConstView p, const Field<Cell>* source);
   double velocity_residual_norm() { return std::sqrt(sums_.dot(residual_.u(), residual_.u())); }
-  void remove_divergence(const WallVelocity& walls, FaceVector& u, Field<Cell>& p);
+  void remove_divergence(const WallVelocity& walls, const Field<Cell>* source, FaceVector& u, Field<Cell>& p);
 
   SaddleVector residual_, correction_;
   FaceVector lift_;  // zero but on walls and their ghosts
@@ -97,9 +97,10 @@ void StokesSolver::System::update(const Viscosity& mu) {
   mu_.emplace(grid, mu);
 }
 
-// r_u = f - A u - grad p and r_p = div u, of a velocity with its walls and ghosts set. Returns the means that f loses.
+// r_u = f - A u - grad p and r_p = div u - source, of a velocity with its walls and ghosts set. Returns the means that f loses.
 std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force, const Vector3& uniform_force,
-                                                         const FaceVector& u, ConstView p) {
+                                                         const FaceVector& u, ConstView p,
+                                                         const Field<Cell>* source) {
   copy(p, correction_.p());
   solver_->viscous_operator().apply_to_points(u.points(), residual_.u());
   add_gradient(grid, correction_.pressure, residual_.u());
@@ -107,14 +108,17 @@ std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force
   for (int component = 0; component < 3; ++component) add_constant(uniform_force[component], residual_.u()[component]);
   negative_divergence(grid, u.points(), residual_.p());
   scale(-1.0, residual_.p());
+  if (source != nullptr) add(-1.0, source->unknowns(), residual_.p());
   return grid.has_walls() ? std::array<double, 3>{} : sums_.remove_means(residual_.u());
 }
 
-// u -= grad phi with Lap phi = div u. Where mu is constant A grad phi = -grad(2 mu div u), half of it for the laplacian
+// u -= grad phi with Lap phi = div u - source. Where mu is constant A grad phi = -grad(2 mu div u), half of it for the laplacian
 // form: taken from the pressure, that keeps the velocity equation as it was, but for walls and changes of mu.
-void StokesSolver::System::remove_divergence(const WallVelocity& walls, FaceVector& u, Field<Cell>& p) {
+void StokesSolver::System::remove_divergence(const WallVelocity& walls, const Field<Cell>* source, FaceVector& u,
+                                             Field<Cell>& p) {
   walls.set_normal_faces(u);
   divergence(u, chi_);
+  if (source != nullptr) add(-1.0, source->unknowns(), chi_.unknowns());
   pressure_solver_->solve(chi_.unknowns(), chi_.unknowns());
   correct_velocity_and_pressure(chi_, 0.0, *mu_, constant_ ? 1.0 : 2.0, u, p);
   walls.set_normal_faces(u);
@@ -123,16 +127,18 @@ void StokesSolver::System::remove_divergence(const WallVelocity& walls, FaceVect
 }
 
 StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u,
-                                         Field<Cell>& p, const Vector3& uniform_force) {
+                                         Field<Cell>& p, const Vector3& uniform_force,
+                                         const Field<Cell>* source) {
   const auto start = std::chrono::steady_clock::now();
   check_grid("stokes", "the force", force, grid);
   check_grid("stokes", "the velocity", u, grid);
   check_grid("stokes", "the pressure", p, grid);
+  if (source != nullptr) check_grid("stokes", "the source of the divergence", *source, grid);
   StokesReport report;
   walls.set_normal_faces(lift_);
   walls.fill_ghosts(lift_);
   set_zero(chi_.unknowns());
-  report.removed_mean_force = set_residual(force, uniform_force, lift_, std::as_const(chi_).unknowns());
+  report.removed_mean_force = set_residual(force, uniform_force, lift_, std::as_const(chi_).unknowns(), source);
   const double force_norm = velocity_residual_norm();
   if (!std::isfinite(force_norm)) throw std::runtime_error("stokes: the force is not finite");
   const double size = solver_->norm(residual_);
@@ -145,7 +151,7 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
   walls.set_normal_faces(u);
   walls.fill_ghosts(u);
-  set_residual(force, uniform_force, u, p.unknowns());
+  set_residual(force, uniform_force, u, p.unknowns(), source);
   if (!std::isfinite(velocity_residual_norm())) throw std::runtime_error("stokes: the initial guess is not finite");
   // No further below the residual of the guess than round-off allows.
   const double target = std::max(options.tolerance * size, 1e-13 * solver_->norm(residual_));
@@ -155,12 +161,12 @@ StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelo
   add(1.0, correction_.u(), u.unknowns());
   add(1.0, correction_.p(), p.unknowns());
   if (!grid.has_walls()) sums_.remove_means(u.unknowns());
-  remove_divergence(walls, u, p);
+  remove_divergence(walls, source, u, p);
 
-  set_residual(force, uniform_force, u, p.unknowns());
+  set_residual(force, uniform_force, u, p.unknowns(), source);
   report.momentum_residual = relative_to(force_norm, velocity_residual_norm());
   report.residual = relative_to(size, solver_->norm(residual_));
-  report.divergence = max_divergence(u);
+  report.divergence = max_divergence(u, source);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
@@ -176,8 +182,8 @@ void StokesSolver::update(const Viscosity& mu) {
 }
 
 StokesReport StokesSolver::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
-                                 const Vector3& uniform_force) {
-  return system_->solve(force, walls, u, p, uniform_force);
+                                 const Vector3& uniform_force, const Field<Cell>* source) {
+  return system_->solve(force, walls, u, p, uniform_force, source);
 }
 
 const Grid& StokesSolver::grid() const {

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "coupling/marker_transfer.h"
+#include "fluid/field.h"
+#include "transfer/fine_surface.h"
+#include "transfer/grid_band.h"
+#include "vesicle/membrane_jumps.h"
+#include "vesicle/surface.h"
+
+namespace vesiflow::coupling {
+
+/// The two transfers between a membrane without thickness and the staggered grid: what a force on the membrane is to the
+/// difference equations of the fluid, and the velocity of the membrane.
+///
+/// Let the velocity inside be that outside, continued, less D = [u] + d [u_n] + ..., at the distance d from the
+/// membrane, chi the indicator of the inside at points of the grid and M(u, p) = Lap u - grad p the difference operator.
+/// Then the field on the grid obeys the equations of the fluid with the force and the source
+///     f = M(chi D) - theta M(D),   div u = r,   r = -div(chi D) + theta div D,
+/// where theta(d) is a smooth step from 1 inside to 0 outside within `smoothing`: D obeys the equations to the order of
+/// the differences, so that theta M(D) is small, and with it f changes smoothly as points of the grid change sides. (An
+/// immersed interface method: LeVeque & Li 1994, 1997; docs/jump_conditions.md.) All is next to the membrane. Total
+/// force and torque of f are those of the membrane: what lacks, of second order in h, is spread by a delta function.
+///
+/// The velocity of the membrane is interpolated by 4 x 4 x 4 points of Lagrange from the mean of both sides, u + D/2
+/// inside and u - D/2 outside.
+class SharpTransfer {
+ public:
+  struct Parameters {
+    int degrees = 0;         ///< degrees of forces that the grid resolves; 0: all
+    double smoothing = 1.0;  ///< in spacings
+  };
+
+  SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters);
+
+  /// Takes a membrane and its force per area on the fluid (markers x 3).
+  void update(const vesicle::Surface& surface, const vesicle::VectorField& force);
+
+  /// Adds f and r; what lacks of force and torque goes by `delta`, which knows the markers.
+  void add_to(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source, MarkerTransfer& delta);
+
+  /// Sets to zero where add_to() has added since the last clear().
+  void clear(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source);
+
+  /// Velocity at the markers (markers x 3) of the last update.
+  void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
+
+  /// Force that lacked of the total, over the sum of the sizes of the forces: a measure of the error.
+  double lacking_force() const { return lacking_force_; }
+
+ private:
+  struct Moments {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
+  };
+  double blend(double distance) const;
+  double momentum_at(int component, int i, int j, int k, std::ptrdiff_t at, double theta) const;
+  void add_component(int component, fluid::View density, Moments& moments) const;
+  void add_source(fluid::View source) const;
+  int wrapped(int index, int axis) const;
+  void spread_rest(const Moments& put, MarkerTransfer& delta, fluid::FaceVector& density);
+
+  fluid::Grid grid_;
+  Parameters parameters_;
+  double smoothing_;  // width
+  vesicle::MembraneJumps jumps_;
+  FineSurface fine_;
+  std::vector<GridBand> bands_;  // of the components, then of the pressure
+  vesicle::VectorField positions_, force_, rest_;
+  vesicle::ScalarField area_weight_;
+  double lacking_force_ = 0.0;
+  struct Box {
+    std::array<int, 3> first, extent;
+  };
+  std::array<std::vector<Box>, 4> touched_;
+};
+
+}  // namespace vesiflow::coupling
