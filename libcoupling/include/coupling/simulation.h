@@ -145,6 +145,8 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   double membrane_speed(std::size_t vesicle) const;
   /// Whether the noise of some membrane is above limits.velocity_noise: it may be the start of a blow-up.
   bool suspects_blow_up() const;
+  /// Solves of the fluid in the last step for the velocities of sharp membranes between two viscosities; 0 without.
+  int interface_passes() const { return interface_passes_; }
   /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
   const fluid::Field<fluid::Cell>* viscosity() const;
   Phases phases() const;             ///< time that the phases of the steps have taken
@@ -186,6 +188,8 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
+  void iterate_interfaces();
+  fluid::Vector3 mean_flow() const;
   void move_markers(double dt);
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
@@ -209,6 +213,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::unique_ptr<StartControl> start_control_;   // of equal steps that start in parts where they must
   std::vector<VesicleState> remembered_;          // before the step that is tried
   std::vector<vesicle::ScalarField> curvatures_;  // the same, in a start
+  int interface_passes_ = 0;                      // of the last step
   long extra_steps_ = 0;                          // of the fluid, by parts of steps
   long rejected_steps_ = 0;
   long last_step_ = 0;

@@ -67,6 +67,8 @@ ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const F
     const double radius = std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi));
     const int degrees = std::min(parameters.latitudes(number), sharp_degrees(radius, parameters.spacing()));
     sharp.emplace(grid, membrane.surface().grid(), SharpTransfer::Parameters{.degrees = degrees});
+    const double ratio = parameters.viscosity_ratio(number);
+    if (ratio != 1.0) two_phase.emplace(ratio, membrane.positions().rows());
   }
   if (parameters.coupling.thickness_correction)
     thickness_.emplace(membrane, parameters.coupling.kernel, parameters.spacing(),
@@ -83,7 +85,10 @@ void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions
                                                 vesicle::VectorField& velocity) const {
   if (vesicle_.sharp) {
     const PhaseTimer timer(vesicle_.moving.interpolate);
-    vesicle_.sharp->interpolate(*vesicle_.velocity_, velocity);
+    if (vesicle_.two_phase)
+      velocity = vesicle_.two_phase->value();
+    else
+      vesicle_.sharp->interpolate(*vesicle_.velocity_, velocity);
     return;
   }
   {
@@ -119,7 +124,14 @@ void ImmersedVesicle::meet_grid() {
   if (!sharp) return;
   all_force_ = force();
   if (const vesicle::VectorField* owed = motion->owed_force()) all_force_ += *owed;
-  sharp->update(membrane.surface(), all_force_);
+  sharp->update(membrane.surface());
+}
+
+double ImmersedVesicle::improve_interface(const fluid::FaceVector& velocity, const fluid::Vector3& mean_flow) {
+  mean_velocity_.resize(membrane.positions().rows(), 3);
+  sharp->interpolate(velocity, mean_velocity_);
+  for (int axis = 0; axis < 3; ++axis) mean_velocity_.col(axis) += mean_flow[static_cast<std::size_t>(axis)];
+  return two_phase->improve(membrane.surface(), mean_velocity_);
 }
 
 void ImmersedVesicle::clear(fluid::NavierStokes& fluid) {
@@ -128,7 +140,11 @@ void ImmersedVesicle::clear(fluid::NavierStokes& fluid) {
 }
 
 void ImmersedVesicle::put_force(fluid::NavierStokes& fluid) {
-  if (sharp) return sharp->add_to(fluid.force(), fluid.divergence_source(), transfer);
+  if (sharp) {
+    sharp->set_force(all_force_, two_phase ? &two_phase->jump() : nullptr);
+    sharp->add_to(fluid.force(), fluid.divergence_source(), transfer);
+    return;
+  }
   transfer.spread(force(), membrane.surface().area_weight(), fluid.force());
   if (const vesicle::VectorField* owed = motion->owed_force())
     transfer.spread(*owed, membrane.surface().area_weight(), fluid.force());
@@ -157,7 +173,9 @@ void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) 
   if (sharp) {
     update();
     meet_grid();
+    sharp->set_force(all_force_, two_phase ? &two_phase->jump() : nullptr);
     sharp->interpolate(velocity, velocities.fluid);
+    if (two_phase) velocities.fluid *= 2.0 / (1.0 + two_phase->ratio());
     motion->mesh_velocity(dt, membrane, velocities);
     return;
   }

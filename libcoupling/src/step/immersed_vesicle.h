@@ -16,6 +16,7 @@
 #include "step/velocity_noise.h"
 #include "transfer/sharp_transfer.h"
 #include "vesicle/membrane.h"
+#include "viscosity/interface_velocity.h"
 
 namespace vesiflow::coupling {
 
@@ -32,12 +33,15 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
-  /// Looks up where the membrane is on the grid, and what its force does there.
+  /// Looks up where the membrane is on the grid.
   void meet_grid();
   /// Takes off the grid what it has put there before.
   void clear(fluid::NavierStokes& fluid);
   /// Puts its force on it.
   void put_force(fluid::NavierStokes& fluid);
+
+  /// The velocity of an interface of two viscosities from the fluid's, see InterfaceVelocity; returns how much it changes.
+  double improve_interface(const fluid::FaceVector& velocity, const fluid::Vector3& mean_flow);
 
   /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts in `moving`.
   void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity);
@@ -53,7 +57,8 @@ struct ImmersedVesicle {
 
   vesicle::Membrane membrane;
   MarkerTransfer transfer;
-  std::optional<SharpTransfer> sharp;  ///< where it has no thickness
+  std::optional<SharpTransfer> sharp;          ///< where it has no thickness
+  std::optional<InterfaceVelocity> two_phase;  ///< its velocity where the viscosity is another one inside, if sharp
   MarkerVelocities velocities;
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside
   std::unique_ptr<MembraneMotion> motion;
@@ -66,7 +71,8 @@ struct ImmersedVesicle {
 
  private:
   std::optional<ThicknessCorrection> thickness_;
-  vesicle::VectorField all_force_;  // with what the motion owes, where the membrane is sharp
+  vesicle::VectorField mean_velocity_;  // of both sides, of an interface of two viscosities
+  vesicle::VectorField all_force_;      // with what the motion owes, where the membrane is sharp
   class FlowAtMarkers final : public VelocityAt {
    public:
     explicit FlowAtMarkers(ImmersedVesicle& vesicle) : vesicle_(vesicle) {}

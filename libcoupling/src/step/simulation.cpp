@@ -32,8 +32,8 @@ const SimulationParameters& checked(const SimulationParameters& parameters, cons
 }
 
 std::unique_ptr<ViscosityContrast> contrast_of(const SimulationParameters& parameters) {
-  return parameters.has_viscosity_contrast() ? std::make_unique<ViscosityContrast>(parameters, grid_of(parameters))
-                                             : nullptr;
+  const bool has_field = parameters.has_viscosity_contrast() && parameters.coupling.method == CouplingMethod::delta;
+  return has_field ? std::make_unique<ViscosityContrast>(parameters, grid_of(parameters)) : nullptr;
 }
 
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters, const ViscosityContrast* contrast) {

@@ -4,6 +4,7 @@
 // A step of the coupled method, as section 3.3 of the paper has it, and what is looked at after it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -25,6 +26,10 @@ namespace {
 /// Steps between two looks at the meshes, which change by a few per cent in that time. Where redistribution does not help it
 /// is tried again each time, at the price of about ten steps of a small parameters.
 constexpr long redistribution_interval = 16;
+
+/// Change of a membrane's velocity, relative, below which another solve is not worth it, and the most of them.
+constexpr double interface_tolerance = 1e-3;
+constexpr int most_interface_passes = 60;
 
 }  // namespace
 
@@ -124,6 +129,7 @@ void Simulation::update_viscosity() {
 void Simulation::advance_fluid(double dt) {
   try {
     fluid_.step(dt);
+    iterate_interfaces();
   } catch (const std::invalid_argument& error) {
     if (fluid_.steps() > 0) throw;  // the state's fault
     // The velocity solver is made in the first step, or refused.
@@ -131,6 +137,51 @@ void Simulation::advance_fluid(double dt) {
   } catch (const std::runtime_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(parameters_, flow_));
   }
+}
+
+// Sharp membranes between two viscosities: forces at the velocity that they lead to.
+void Simulation::iterate_interfaces() {
+  const auto improve = [this] {
+    const PhaseTimer timer(phases_.interpolate);
+    const fluid::Vector3 mean = mean_flow();
+    double change = 0.0;
+    for (auto& v : vesicles_)
+      if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity(), mean));
+    return change;
+  };
+  if (std::ranges::none_of(vesicles_, [](const auto& v) { return v->two_phase.has_value(); })) return;
+  interface_passes_ = 1;
+  for (double change = improve(); change > interface_tolerance; change = improve()) {
+    if (interface_passes_ == most_interface_passes)
+      throw std::runtime_error(
+          fmt::format("the velocities of membranes between two viscosities still change by {:.2g} after {} solves",
+                      change, interface_passes_));
+    {
+      const PhaseTimer timer(phases_.spread);
+      for (auto& v : vesicles_) v->clear(fluid_);
+      if (fluid_force_) put_fluid_force();
+      for (auto& v : vesicles_) v->put_force(fluid_);
+    }
+    fluid_.solve_again();
+    ++interface_passes_;
+  }
+}
+
+// Without walls the mean of mu u, which the fluid's solver takes to be zero, is such that that of u is.
+fluid::Vector3 Simulation::mean_flow() const {
+  fluid::Vector3 mean{};
+  const fluid::Grid& grid = fluid_.grid();
+  if (grid.has_walls()) return mean;
+  for (const auto& v : vesicles_) {
+    if (!v->two_phase) continue;
+    const vesicle::Surface& surface = v->membrane.surface();
+    const vesicle::ScalarField flux = (v->two_phase->jump() * surface.normal()).rowwise().sum() * surface.area_weight();
+    const vesicle::Vector3 centre = surface.integral(surface.positions()) / surface.area();
+    for (int axis = 0; axis < 3; ++axis)
+      mean[static_cast<std::size_t>(axis)] -= ((surface.positions().col(axis) - centre[axis]) * flux).sum() /
+                                              (grid.length(0) * grid.length(1) * grid.length(2));
+  }
+  return mean;
 }
 
 void Simulation::move_markers(double dt) {

@@ -62,10 +62,18 @@ GridBand::GridBand(const fluid::Grid& grid, fluid::Centring centring)
   for (int axis = 0; axis < 3; ++axis) spacing_[static_cast<std::size_t>(axis)] = grid.spacing(axis);
 }
 
-void GridBand::update(const FineSurface& surface, double width, int record) {
+void GridBand::update(const FineSurface& surface, double width) {
   frame(surface, width);
   find_nearest_nodes(surface, width);
-  project(surface, width, record);
+  project(surface, width);
+}
+
+void GridBand::evaluate(const FineSurface& surface, int record) {
+  for (const FootOfPoint& foot : feet_) {
+    const FineSurface::Four g = surface.value(foot.place, record);
+    const double d = foot.distance;
+    jump_[foot.point] = g[0] + d * (g[1] + 0.5 * d * (g[2] + d / 3.0 * g[3]));
+  }
 }
 
 void GridBand::frame(const FineSurface& surface, double width) {
@@ -132,8 +140,8 @@ void GridBand::find_nearest_nodes(const FineSurface& surface, double width) {
     }
 }
 
-void GridBand::project(const FineSurface& surface, double width, int record) {
-  count_ = 0;
+void GridBand::project(const FineSurface& surface, double width) {
+  feet_.clear();
   const int longitudes = surface.longitudes();
   std::size_t at = 0;
   for (int k = 0; k < extent_[2]; ++k)
@@ -159,10 +167,8 @@ void GridBand::project(const FineSurface& surface, double width, int record) {
         const double side = r.dot(normal);
         const double d = std::copysign(r.norm(), side);
         if (std::abs(d) > width) continue;
-        const FineSurface::Four g = surface.value(place, record);
         distance_[at] = d;
-        jump_[at] = g[0] + d * (g[1] + 0.5 * d * (g[2] + d / 3.0 * g[3]));
-        ++count_;
+        feet_.push_back({at, d, place});
       }
 }
 

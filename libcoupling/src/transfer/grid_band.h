@@ -20,9 +20,12 @@ class GridBand {
  public:
   GridBand(const fluid::Grid& grid, fluid::Centring centring);
 
-  /// Finds the points within `width` of the surface and evaluates `record` of it there: four numbers g, g_n, g_nn, g_nnn
-  /// give the jump g + d g_n + d^2/2 g_nn + d^3/6 g_nnn.
-  void update(const FineSurface& surface, double width, int record);
+  /// Finds the points within `width` of the surface and their closest points on it.
+  void update(const FineSurface& surface, double width);
+
+  /// Evaluates the jump at these points from `record` of the same surface: four numbers g, g_n, g_nn, g_nnn give
+  /// g + d g_n + d^2/2 g_nn + d^3/6 g_nnn.
+  void evaluate(const FineSurface& surface, int record);
 
   /// Where the box begins, and its extent.
   const std::array<int, 3>& first() const { return first_; }
@@ -45,12 +48,12 @@ class GridBand {
   bool is_inside(std::ptrdiff_t at) const { return distance(at) < 0.0; }
 
   /// Points of the band.
-  std::size_t count() const { return count_; }
+  std::size_t count() const { return feet_.size(); }
 
  private:
   void frame(const FineSurface& surface, double width);
   void find_nearest_nodes(const FineSurface& surface, double width);
-  void project(const FineSurface& surface, double width, int record);
+  void project(const FineSurface& surface, double width);
 
   fluid::Grid grid_;
   fluid::Centring centring_;
@@ -60,7 +63,12 @@ class GridBand {
   std::vector<double> distance_, jump_;
   std::vector<float> nearest_;  // squared distance of the nearest node
   std::vector<int> node_;       // and its number, or -1
-  std::size_t count_ = 0;
+  struct FootOfPoint {
+    std::size_t point;
+    double distance;
+    FineSurface::Place place;
+  };
+  std::vector<FootOfPoint> feet_;
 };
 
 }  // namespace vesiflow::coupling

@@ -51,21 +51,29 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
   bands_.emplace_back(grid, fluid::Centring::cell);
 }
 
-void SharpTransfer::update(const vesicle::Surface& surface, const vesicle::VectorField& force) {
+void SharpTransfer::update(const vesicle::Surface& surface) {
   double h = 0.0;
   for (int axis = 0; axis < 3; ++axis) h = std::max(h, grid_.spacing(axis));
   jumps_.update(surface);
-  jumps_.compute(force);
   fine_.update(surface, node_distance * grid_.min_spacing());
-  fine_.set(jumps_.coefficients(), slots(false));
 #pragma omp parallel for schedule(dynamic, 1)
   for (int c = 0; c < 4; ++c) {
     const double width = c == pressure_band ? smoothing_ + h + 0.01 * h : reading_width * h;
-    bands_[static_cast<std::size_t>(c)].update(fine_, width, FineSurface::jumps + c);
+    bands_[static_cast<std::size_t>(c)].update(fine_, width);
   }
   positions_ = surface.positions();
-  force_ = force;
   area_weight_ = surface.area_weight();
+}
+
+void SharpTransfer::set_force(const vesicle::VectorField& force, const vesicle::VectorField* velocity_jump) {
+  if (velocity_jump != nullptr)
+    jumps_.compute(force, *velocity_jump);
+  else
+    jumps_.compute(force);
+  fine_.set(jumps_.coefficients(), slots(velocity_jump != nullptr));
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int c = 0; c < 4; ++c) bands_[static_cast<std::size_t>(c)].evaluate(fine_, FineSurface::jumps + c);
+  force_ = force;
 }
 
 // 1 inside, 0 outside.

@@ -37,8 +37,11 @@ class SharpTransfer {
 
   SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters);
 
-  /// Takes a membrane and its force per area on the fluid (markers x 3).
-  void update(const vesicle::Surface& surface, const vesicle::VectorField& force);
+  /// Takes a membrane's shape. Jumps, forces and velocities that follow are on it.
+  void update(const vesicle::Surface& surface);
+
+  /// Takes its force per area on the fluid (markers x 3). \param velocity_jump [u] (markers x 3), none if null
+  void set_force(const vesicle::VectorField& force, const vesicle::VectorField* velocity_jump = nullptr);
 
   /// Adds f and r; what lacks of force and torque goes by `delta`, which knows the markers.
   void add_to(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source, MarkerTransfer& delta);

@@ -183,6 +183,12 @@ class VESIFLOW_FLUID_EXPORT NavierStokes {
   /// the state is then lost, but for retry().
   void step(double dt);
 
+  /// Solves for the end of the last step again, with the force and the source of the divergence as they are now and from
+  /// the solution as it is: for forces that depend on the velocity. Allocates nothing.
+  /// \throws std::logic_error before the first step, and with inertia.
+  /// \throws std::runtime_error as step().
+  void solve_again();
+
   /// Velocity now; faces on walls and ghosts are set from the walls.
   const FaceVector& velocity() const;
   /// Velocity one step ago, with walls and ghosts of that time; before the first step the same as velocity().

@@ -37,6 +37,9 @@ void NavierStokes::forget() {
   stepper_->forget();
 }
 
+void NavierStokes::solve_again() {
+  stepper_->solve_again();
+}
 void NavierStokes::retry() {
   stepper_->retry();
 }

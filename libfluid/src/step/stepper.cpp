@@ -278,19 +278,35 @@ void Stepper::retry() {
   walls.evaluate(clock.time);
 }
 
+// Others may have moved other fields into these.
+void Stepper::check_given() {
+  check_grid("fluid", "the force", force, grid);
+  if (!source) return;
+  check_grid("fluid", "the source of the divergence", *source, grid);
+  remove_mean(*source);
+}
+
+void Stepper::solve_again() {
+  if (!stokes_ || clock.steps == 0)
+    throw std::logic_error("fluid: solve_again() is of a fluid without inertia, after a step");
+  check_given();
+  try {
+    solve_stokes(velocity);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        message("fluid: step ", clock.steps, " to time ", clock.time, " solved again failed: ", error.what()));
+  }
+}
+
 void Stepper::step(double dt) {
   if (!(std::isfinite(dt) && dt > 0.0)) {
     throw std::invalid_argument(message("fluid: the time step is ", dt, "; it must be finite and > 0"));
   }
-  check_grid("fluid", "the force", force, grid);  // others may have moved another field into it
-  if (source) {
-    check_grid("fluid", "the source of the divergence", *source, grid);
-    remove_mean(*source);
-  }
+  check_given();
   walls.evaluate(clock.time + dt);
   try {
     if (stokes_) {
-      solve_stokes(dt);
+      extrapolate_and_solve_stokes(dt);
     } else {
       advance_with_inertia(dt);
     }
@@ -312,15 +328,19 @@ void Stepper::advance_with_inertia(double dt) {
   project(a);
 }
 
-void Stepper::solve_stokes(double dt) {
+void Stepper::extrapolate_and_solve_stokes(double dt) {
   if (variable_viscosity()) {
     const PhaseTimer timer(timings.viscous);
     stokes_->update(parameters.viscosity);
   }
-  const PhaseTimer timer(timings.momentum);
   const double r = step_coefficients(dt, previous_step()).b2;
   extrapolate(velocity, previous, r, previous);
-  report.stokes = stokes_->solve(force, walls, previous, pressure, uniform_force, source ? &*source : nullptr);
+  solve_stokes(previous);
+}
+
+void Stepper::solve_stokes(FaceVector& solution) {
+  const PhaseTimer timer(timings.momentum);
+  report.stokes = stokes_->solve(force, walls, solution, pressure, uniform_force, source ? &*source : nullptr);
   if (!report.stokes.converged) {
     throw std::runtime_error(message("the Stokes solver stopped after ", report.stokes.iterations,
                                      " iterations at a relative residual of ", report.stokes.residual));

@@ -28,6 +28,7 @@ class Stepper {
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                const FluidClock& clock);
   void step(double dt);
+  void solve_again();
   void remember();
   void forget();
   void retry();
@@ -59,7 +60,9 @@ class Stepper {
     return variable_viscosity() && parameters.viscous_treatment == ViscousTreatment::implicit;
   }
   void advance_with_inertia(double dt);
-  void solve_stokes(double dt);
+  void extrapolate_and_solve_stokes(double dt);
+  void solve_stokes(FaceVector& solution);
+  void check_given();
   void start();
   void make_divergence_free();
   void recompute_convection();

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscosity/interface_velocity.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace vesiflow::coupling {
+
+InterfaceVelocity::InterfaceVelocity(double ratio, Eigen::Index markers)
+    : ratio_(ratio),
+      velocity_(vesicle::VectorField::Zero(markers, 3)),
+      jump_(vesicle::VectorField::Zero(markers, 3)),
+      change_(vesicle::VectorField::Zero(markers, 3)) {}
+
+const vesicle::VectorField& InterfaceVelocity::jump() {
+  jump_ = (1.0 - ratio_) * velocity_;
+  return jump_;
+}
+
+double InterfaceVelocity::improve(const vesicle::Surface& surface, const vesicle::VectorField& mean) {
+  using Vector = Eigen::Vector3d;
+  change_ = (2.0 / (1.0 + ratio_)) * mean;
+  change_ -= surface.normal() * (surface.flux(change_) / surface.area());
+  change_ -= velocity_;
+
+  // Its rigid part: least squares over the membrane, about the centroid of the area.
+  const vesicle::VectorField& x = surface.positions();
+  const vesicle::ScalarField& weight = surface.area_weight();
+  const Vector centre = surface.integral(x) / surface.area();
+  const Vector velocity = surface.integral(change_) / surface.area();
+  Vector momentum = Vector::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (Eigen::Index m = 0; m < x.rows(); ++m) {
+    const Vector r = Vector(x.row(m).transpose()) - centre;
+    momentum += weight[m] * r.cross(Vector(change_.row(m).transpose()));
+    inertia += weight[m] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
+  }
+  const Vector turning = inertia.ldlt().solve(momentum);
+  const double extra = 0.5 * (ratio_ - 1.0);
+  for (Eigen::Index m = 0; m < x.rows(); ++m)
+    change_.row(m) += extra * (velocity + turning.cross(Vector(x.row(m).transpose()) - centre)).transpose().array();
+
+  velocity_ += change_;
+  const auto size = [&](const vesicle::VectorField& field) {
+    return std::sqrt((field.square().rowwise().sum() * weight).sum());
+  };
+  const double speed = size(velocity_);
+  return speed > 0.0 ? size(change_) / speed : 0.0;
+}
+
+}  // namespace vesiflow::coupling

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "vesicle/surface.h"
+#include "vesicle/types.h"
+
+namespace vesiflow::coupling {
+
+/// The velocity U of a membrane that has another viscosity inside, ratio times that outside.
+///
+/// In each phase w = mu u obeys the equations of viscosity 1, with the jump q = [w] = (1 - ratio) U across the membrane;
+/// so one solve with constant coefficients gives w for a known U, and the mean of w on both sides gives U back:
+///     U = 2 w_mean/(1 + ratio).
+/// U is the fixed point of this map. Its slowest parts are known in closed form, and taken out: rigid motions, on which
+/// the map has the eigenvalue (ratio - 1)/(ratio + 1), so that their part of a change is multiplied by (ratio + 1)/2, and
+/// the dilation, which no incompressible fluid has: the net flux is removed. Augmented variables and
+/// scaled velocities for two viscosities: Li, Ito & Lai, Computers & Fluids 36 (2007). docs/jump_conditions.md.
+class InterfaceVelocity {
+ public:
+  InterfaceVelocity(double ratio, Eigen::Index markers);
+
+  double ratio() const { return ratio_; }
+  /// U (markers x 3), zero at first.
+  const vesicle::VectorField& value() const { return velocity_; }
+  /// q (markers x 3).
+  const vesicle::VectorField& jump();
+
+  /// Takes the mean of w on both sides (markers x 3) that the last jump() has led to. Returns how much U changes, root mean
+  /// square over that of U.
+  double improve(const vesicle::Surface& surface, const vesicle::VectorField& mean);
+
+ private:
+  double ratio_;
+  vesicle::VectorField velocity_, jump_, change_;
+};
+
+}  // namespace vesiflow::coupling
