@@ -35,7 +35,7 @@ TEST(WaveDamping, IsThatOfTheShareOfTheHighestDegree) {
 }
 
 // On half of the damping waves of degree 30 to 34, the highest that were kept, doubled every 0.85 units of time (shear of rate 1, R/h =
-// 11.5; validation/integrators.md). A membrane is swept along at about half the shear rate there, as a sphere turns: the other half must
+// 11.5; validation/studies/integrators.md). A membrane is swept along at about half the shear rate there, as a sphere turns: the other half must
 // hold them.
 TEST(WaveDamping, HoldsTheWavesThatGrewOnHalfOfIt) {
   const WaveDamping damping = damping_of(35, 1.0, 0.5);
