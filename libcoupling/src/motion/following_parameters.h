@@ -20,6 +20,7 @@ struct FollowingParameters {
     MembraneResponse::SecondMoments thickness;  ///< of the membrane as the fluid feels it
     bool is_corrected = false;                  ///< the membrane answers as a thin one, by a correction
     bool is_sharp = false;                      ///< it is one
+    bool is_thin() const { return is_corrected || is_sharp; }
   } grid;
   double unit_of_length = 1.0;  ///< the effective radius of the vesicle
 

@@ -51,7 +51,7 @@ void ShapeFollowing::advance(double dt, const VelocityAt& velocity_at, vesicle::
   const double inertia = parameters_.fluid.inertia_share(parameters_.fluid.acceleration(dt, scheme), radius);
   const MembraneCondition condition = MembraneCondition::of(membrane, radius);
   stiffness_.find(dt, condition,
-                  overestimate_of_single_correction(parameters_.grid.is_corrected, condition.compression, inertia,
+                  overestimate_of_single_correction(parameters_.grid.is_thin(), condition.compression, inertia,
                                                     parameters_.fluid.lagging_overestimate()),
                   response_);
   damping_.update(rates.largest_speed);
