@@ -188,6 +188,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
+  void correct_fluid(double dt);
   void iterate_interfaces();
   fluid::Vector3 mean_flow() const;
   void move_markers(double dt);
@@ -213,6 +214,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::unique_ptr<StartControl> start_control_;   // of equal steps that start in parts where they must
   std::vector<VesicleState> remembered_;          // before the step that is tried
   std::vector<vesicle::ScalarField> curvatures_;  // the same, in a start
+  bool corrects_fluid_ = false;                   // after each step, for what implicit terms have done
   int interface_passes_ = 0;                      // of the last step
   long extra_steps_ = 0;                          // of the fluid, by parts of steps
   long rejected_steps_ = 0;

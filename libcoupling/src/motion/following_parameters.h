@@ -22,6 +22,7 @@ struct FollowingParameters {
     bool is_sharp = false;                      ///< it is one
     bool is_thin() const { return is_corrected || is_sharp; }
   } grid;
+  bool corrects_fluid = false;  ///< the fluid is told of the implicit terms at once, and not in the next steps
   double unit_of_length = 1.0;  ///< the effective radius of the vesicle
 
   /// That of the coming steps.

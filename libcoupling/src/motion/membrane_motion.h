@@ -56,6 +56,11 @@ class MembraneMotion {
   /// state: what past corrections of this motion owe to its momentum. Null if nothing.
   virtual const vesicle::VectorField* owed_force() const { return nullptr; }
 
+  /// Force per area, shape (markers, 3) of the predicted state, that the implicit terms of the last advance() stand for:
+  /// with it the fluid would have moved the membrane as it has been moved. Null where the fluid is not to hear of it,
+  /// or hears of it later (owed_force).
+  virtual const vesicle::VectorField* correcting_force() const { return nullptr; }
+
   /// U~ of an interpolated U at the membrane's present state, before any step has made it.
   virtual void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) = 0;
 

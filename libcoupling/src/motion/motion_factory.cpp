@@ -71,6 +71,7 @@ FollowingParameters following_parameters(const SimulationParameters& all, const 
   parameters.grid.is_sharp = all.coupling.method == CouplingMethod::sharp;
   if (!parameters.grid.is_corrected && !parameters.grid.is_sharp)
     parameters.grid.thickness = MembraneResponse::second_moments(all.coupling.kernel);
+  parameters.corrects_fluid = parameters.grid.is_sharp && parameters.fluid.has_inertia;
   parameters.unit_of_length = all.vesicles[vesicle].radius;
   return parameters;
 }

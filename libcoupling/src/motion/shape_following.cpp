@@ -22,7 +22,8 @@ ShapeFollowing::ShapeFollowing(const FollowingParameters& parameters, const Mirr
       second_difference_(predicted_),
       coefficients_(parameters.shape.degrees, shape_.state().fields()) {
   predicted_coefficients_ = last_coefficients_ = forces_ = coefficients_;
-  if (parameters.fluid.has_inertia) owed_.emplace(shape_.harmonics(), shape_.state().fields(), parameters.fluid);
+  if (parameters.fluid.has_inertia && !parameters.corrects_fluid)
+    owed_.emplace(shape_.harmonics(), shape_.state().fields(), parameters.fluid);
 }
 
 // A step up to the fluid: the state whose forces drive it, and what it is owed.
@@ -68,15 +69,23 @@ void ShapeFollowing::advance(double dt, const VelocityAt& velocity_at, vesicle::
   as_vector(coefficients_) = solver_.solve(diagonal_.values(), dt, rates.slip, right_side_);
 
   // What the fluid has not heard of.
-  if (owed_) {
-    stiffness_.find_forces(coefficients_, forces_);
-    owed_->add(forces_);
-  }
+  if (owed_ || parameters_.corrects_fluid) stiffness_.find_forces(coefficients_, forces_);
+  if (owed_) owed_->add(forces_);
+  if (parameters_.corrects_fluid) find_correcting_force(surface);
 
   harmonics.synthesis(coefficients_, second_difference_);
   as_vector(coefficients_) += r * as_vector(last_coefficients_);
   harmonics.synthesis(coefficients_, increment_);
   shape_.finish(dt, increment_, second_difference_, membrane);
+}
+
+void ShapeFollowing::find_correcting_force(const vesicle::Surface& surface) {
+  force_values_.resize(surface.positions().rows(), forces_.fields());
+  shape_.harmonics().synthesis(forces_, force_values_);
+  correcting_force_ = force_values_.leftCols<3>();
+  if (force_values_.cols() == 3) return;
+  surface.projector_divergence(force_values_.col(3), of_tension_);
+  correcting_force_ += of_tension_;
 }
 
 void ShapeFollowing::mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) {

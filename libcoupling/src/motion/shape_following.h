@@ -43,6 +43,9 @@ class ShapeFollowing final : public MembraneMotion {
   void advance(double dt, const VelocityAt& velocity_at, vesicle::Membrane& membrane,
                MarkerVelocities& velocities) override;
   void mesh_velocity(double dt, vesicle::Membrane& membrane, MarkerVelocities& velocities) override;
+  const vesicle::VectorField* correcting_force() const override {
+    return correcting_force_.rows() > 0 ? &correcting_force_ : nullptr;
+  }
   const vesicle::VectorField* owed_force() const override { return owed_ ? owed_->force() : nullptr; }
   std::optional<double> position_error() const override { return shape_.error().value(); }
 
@@ -67,6 +70,9 @@ class ShapeFollowing final : public MembraneMotion {
   FollowedShape::Fields predicted_, increment_, second_difference_;
   vesicle::Coefficients predicted_coefficients_, last_coefficients_, coefficients_, forces_;
   IncrementSolver::Vector right_side_;
+  void find_correcting_force(const vesicle::Surface& surface);
+  Eigen::ArrayXXd force_values_;
+  vesicle::VectorField correcting_force_, of_tension_;  // none unless the fluid is told at once
   mutable std::vector<double> history_;
 };
 

@@ -139,8 +139,10 @@ void ImmersedVesicle::clear(fluid::NavierStokes& fluid) {
   if (sharp) sharp->clear(fluid.force(), fluid.divergence_source());
 }
 
-void ImmersedVesicle::put_force(fluid::NavierStokes& fluid) {
+void ImmersedVesicle::put_force(fluid::NavierStokes& fluid, bool correction) {
   if (sharp) {
+    if (correction)
+      if (const vesicle::VectorField* more = motion->correcting_force()) all_force_ += *more;
     sharp->set_force(all_force_, two_phase ? &two_phase->jump() : nullptr);
     sharp->add_to(fluid.force(), fluid.divergence_source(), transfer);
     return;

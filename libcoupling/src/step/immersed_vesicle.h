@@ -37,8 +37,8 @@ struct ImmersedVesicle {
   void meet_grid();
   /// Takes off the grid what it has put there before.
   void clear(fluid::NavierStokes& fluid);
-  /// Puts its force on it.
-  void put_force(fluid::NavierStokes& fluid);
+  /// Puts its force on it; with `correction`, also that which its motion corrects the fluid by.
+  void put_force(fluid::NavierStokes& fluid, bool correction = false);
 
   /// The velocity of an interface of two viscosities from the fluid's, see InterfaceVelocity; returns how much it changes.
   double improve_interface(const fluid::FaceVector& velocity, const fluid::Vector3& mean_flow);

@@ -79,6 +79,9 @@ void Simulation::make_vesicles() {
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(parameters_, flow_, i, fluid_.grid(), membrane));
   }
   external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_, own_forces_);
+  corrects_fluid_ = parameters_.coupling.method == CouplingMethod::sharp &&
+                    parameters_.fluid.inertia != fluid::Inertia::none &&
+                    parameters_.time.markers == MarkerMotion::shape_following;
   if (parameters_.time.markers != MarkerMotion::implicit) return;
   std::vector<ImplicitStep::Member> members;
   for (const auto& v : vesicles_) members.push_back({&dynamic_cast<ImplicitMotion&>(*v->motion), &v->membrane});

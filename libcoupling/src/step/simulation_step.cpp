@@ -50,8 +50,10 @@ void Simulation::take_step(double dt) {
   compute_forces(dt);  // Steps 1 and 2: coefficients, geometry, forces, spreading
   update_viscosity();
   if (implicit_step_) return solve_step(dt);
+  if (corrects_fluid_) fluid_.remember();
   advance_fluid(dt);  // Step 3: Navier-Stokes
   move_markers(dt);   // Steps 4 and 5: interpolation, mesh control, markers, target areas
+  if (corrects_fluid_) correct_fluid(dt);
 }
 
 // Steps 1 to 5 with forces at the new state, again and again until it answers to itself.
@@ -137,6 +139,18 @@ void Simulation::advance_fluid(double dt) {
   } catch (const std::runtime_error& error) {
     throw SimulationStopped(error.what(), blow_up_advice(parameters_, flow_));
   }
+}
+
+// The implicit terms have moved the membranes otherwise than the fluid has; with their forces it does.
+void Simulation::correct_fluid(double dt) {
+  {
+    const PhaseTimer timer(phases_.spread);
+    for (auto& v : vesicles_) v->clear(fluid_);
+    if (fluid_force_) put_fluid_force();
+    for (auto& v : vesicles_) v->put_force(fluid_, true);
+  }
+  fluid_.retry();
+  fluid_.step(dt);
 }
 
 // Sharp membranes between two viscosities: forces at the velocity that they lead to.
