@@ -254,4 +254,21 @@ STIFF_STARTS = Map(
     lambda shape, volume, ca: _start_keys(f"{shape}, Ca = {ca}", volume, 5.33), lambda shape, volume, ca: None,
     lambda shape, volume, ca, convection: 1 / 24 <= ca / 2, "docs/stability.md, Recommended region", scene=ACROSS)
 
-ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS, STIFF_STARTS)}
+# The same without thickness. Nothing is recommended beyond what the delta function is recommended for.
+SHARP = {"coupling.method": "sharp"}
+SHARP_SHAPES = dataclasses.replace(
+    SHAPES, name="sharp_shapes", title="sharp membranes: reduced volume and capillary number",
+    keys=lambda *cell: SHAPES.keys(*cell) | SHARP)
+SHARP_INERTIA = Map(
+    "sharp_inertia", "sharp membranes: Reynolds number and time step", ("sigma0 = 2000", "sigma0 = 20000"), INERTIA.x, INERTIA.y, 6,
+    lambda panel, dt, reynolds: {"time.step": dt, "fluid.reynolds_number": reynolds, "membrane.sigma0": int(panel.split()[-1])} | SHARP,
+    lambda panel, dt, reynolds: reynolds,
+    lambda panel, dt, reynolds, convection: number(dt) <= min(convection, 1 / 12) and reynolds <= 10,
+    "docs/time_integration.md, shape_following and Convection", quick_panels=("sigma0 = 2000",))
+SHARP_CONTRAST = Map(
+    "sharp_contrast", "sharp membranes: viscosity ratio and time step", ("no inertia",), CONTRAST.x, CONTRAST.y, 4,
+    lambda panel, dt, ratio: {"time.step": dt, "fluid.viscosity_ratio": ratio, "fluid.inertia": "none", "membrane.sigma0": 2000} | SHARP,
+    lambda panel, dt, ratio: ratio, lambda panel, dt, ratio, convection: number(dt) <= 1 / 12, "docs/viscosity_contrast.md")
+
+ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS, STIFF_STARTS, SHARP_SHAPES, SHARP_INERTIA,
+                                    SHARP_CONTRAST)}
