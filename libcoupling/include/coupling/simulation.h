@@ -32,6 +32,9 @@ struct VesicleState {
   vesicle::MembraneState membrane;     ///< positions, areas, strain and tension
   std::vector<double> motion_history;  ///< history of what moves the markers
   std::int64_t redistributions = 0;    ///< their number since the start
+  /// Velocity of the membrane (markers x 3) where it is sharp and between two viscosities, else empty: what its
+  /// iteration begins with in the next step.
+  vesicle::VectorField interface_velocity{};
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {
@@ -42,14 +45,21 @@ struct Start {
 };
 /// Everything a run needs to go on as if it had not been interrupted.
 struct SimulationState {
-  fluid::FaceVector velocity,          ///< velocity of the fluid
-      previous_velocity;               ///< its velocity one step ago
+  fluid::FaceVector velocity,          ///< velocity of the fluid as its solver has it, see fluid_velocity_of()
+      previous_velocity;               ///< the same one step ago
   fluid::Field<fluid::Cell> pressure;  ///< pressure of the fluid
   fluid::FluidClock clock;             ///< times of the two velocities
   std::vector<VesicleState> vesicles;  ///< state of each vesicle
   std::vector<double> step_control;    ///< of adaptive steps, and of a start in parts; else empty
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
 };
+
+/// The velocity of the fluid of a state, which SimulationState::velocity is but for sharp membranes between two
+/// viscosities: see Simulation::fluid_velocity(), which knows where the membranes were in the last step, and not only
+/// where they are now, of second order in the step next to it.
+/// \throws std::invalid_argument when the state is not of the parameters.
+VESIFLOW_COUPLING_EXPORT fluid::FaceVector fluid_velocity_of(const SimulationParameters& parameters,
+                                                             const SimulationState& state);
 
 /// A force of a program's own on the fluid at the markers of a vesicle, per area of the membrane: adds to `force`
 /// (markers x 3). Called in each step, and in each evaluation of an implicit one, by one thread, with the geometry that
@@ -66,6 +76,7 @@ class StartControl;
 class StepControl;
 struct StepErrors;
 class ViscosityContrast;
+class PhysicalVelocity;
 class BlowUpGuard;
 
 /// Vesicles in a box of fluid: the coupled method of Lai & Seol, one step at a time.
@@ -131,7 +142,12 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   /// Greatest |div u| of the fluid; round-off when all is well.
   double max_divergence() const;
 
-  const fluid::NavierStokes& fluid() const { return fluid_; }     ///< the fluid
+  /// The velocity u of the fluid now. It is that of fluid() but for sharp membranes between two viscosities, with which
+  /// the fluid's solver has w = mu u: then it is w outside of the membranes, w/ratio at points of the grid inside, with
+  /// the mean flow of fully periodic boxes, in an array that the next call of this and the next step overwrite.
+  const fluid::FaceVector& fluid_velocity() const;
+  /// The fluid as it is solved for; see fluid_velocity().
+  const fluid::NavierStokes& fluid() const { return fluid_; }
   std::size_t vesicle_count() const { return vesicles_.size(); }  ///< number of vesicles
 
   /// Membrane with its geometry and forces at the present time.
@@ -145,9 +161,11 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   double membrane_speed(std::size_t vesicle) const;
   /// Whether the noise of some membrane is above limits.velocity_noise: it may be the start of a blow-up.
   bool suspects_blow_up() const;
-  /// Solves of the fluid in the last step for the velocities of sharp membranes between two viscosities; 0 without.
+  /// Solves of the fluid in the last step for the velocities of sharp membranes between two viscosities, those of steps
+  /// that were taken back included; 0 without such membranes.
   int interface_passes() const { return interface_passes_; }
-  /// Viscosity of the fluid in the last step (1 before the first), nullptr if it is 1 everywhere.
+  /// The field of viscosity that the fluid was solved with in the last step (1 before the first). nullptr where there is
+  /// none: if it is 1 everywhere, and with sharp membranes, whose fluid is solved for mu u with viscosity 1.
   const fluid::Field<fluid::Cell>* viscosity() const;
   Phases phases() const;             ///< time that the phases of the steps have taken
   PartEntries part_entries() const;  ///< how often parts of them were entered
@@ -191,6 +209,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void correct_fluid(double dt);
   void iterate_interfaces();
   fluid::Vector3 mean_flow() const;
+  void read_velocity(ImmersedVesicle& vesicle);
   void move_markers(double dt);
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
@@ -215,7 +234,9 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::vector<VesicleState> remembered_;          // before the step that is tried
   std::vector<vesicle::ScalarField> curvatures_;  // the same, in a start
   bool corrects_fluid_ = false;                   // after each step, for what implicit terms have done
-  int interface_passes_ = 0;                      // of the last step
+  std::unique_ptr<PhysicalVelocity> physical_velocity_;  // where it is not that of the fluid
+  fluid::Vector3 mean_flow_{};                           // which the fluid's velocity lacks, of the last solve
+  int interface_passes_ = 0;                             // of the last step
   long extra_steps_ = 0;                          // of the fluid, by parts of steps
   long rejected_steps_ = 0;
   long last_step_ = 0;

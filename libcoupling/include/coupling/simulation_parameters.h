@@ -203,8 +203,15 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   };
   ViscosityRange viscosity_range() const;  ///< of this simulation
 
-  /// Whether the viscosity is another one inside some vesicle. If not, there is no field of it and no indicator.
+  /// Whether the viscosity is another one inside some vesicle.
   bool has_viscosity_contrast() const;
+  /// Whether there is a field of it, found by an indicator: not where all are equal, and not with sharp membranes.
+  bool has_viscosity_field() const;
+  /// Whether the fluid is solved for w = mu u instead: sharp membranes between two viscosities.
+  bool has_scaled_velocity() const;
+  /// Whether each step solves the fluid a second time, with the forces that implicit terms stand for: sharp membranes,
+  /// shape_following, and a fluid with inertia.
+  bool corrects_fluid() const;
   /// Whether meshes follow the shapes and not the material.
   bool follows_shape() const;
   /// Number of steps of equal length from 0 to time.end, the last one at or just beyond it.

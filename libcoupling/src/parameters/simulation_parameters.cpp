@@ -70,6 +70,19 @@ bool SimulationParameters::has_viscosity_contrast() const {
   return range.least != 1.0 || range.greatest != 1.0;
 }
 
+bool SimulationParameters::has_viscosity_field() const {
+  return has_viscosity_contrast() && coupling.method == CouplingMethod::delta;
+}
+
+bool SimulationParameters::has_scaled_velocity() const {
+  return has_viscosity_contrast() && coupling.method == CouplingMethod::sharp;
+}
+
+bool SimulationParameters::corrects_fluid() const {
+  return coupling.method == CouplingMethod::sharp && fluid.inertia != fluid::Inertia::none &&
+         time.markers == MarkerMotion::shape_following;
+}
+
 bool SimulationParameters::follows_shape() const {
   return time.markers == MarkerMotion::shape_following || time.markers == MarkerMotion::implicit;
 }

@@ -58,8 +58,12 @@ std::string BlowUpGuard::look_at(std::size_t vesicle, const VelocityNoise& noise
       vesicle, noise.value(), share, count, limit_, noise.marker(), x[0], x[1], x[2]);
 }
 
+bool BlowUpGuard::watches_fluid(long step) const {
+  return step % fluid_interval == 0 && std::isfinite(known_speed_);
+}
+
 std::string BlowUpGuard::look_at(const fluid::FaceVector& velocity, long step) {
-  if (step % fluid_interval != 0 || !std::isfinite(known_speed_)) return {};
+  if (!watches_fluid(step)) return {};
   const auto beyond = [&](const auto& component, char axis) -> std::string {
     const Peak peak = peak_of(component);
     if (peak.speed <= largest_overshoot * known_speed_) return {};

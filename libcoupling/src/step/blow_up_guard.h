@@ -29,6 +29,8 @@ class BlowUpGuard {
   /// After a step. Each returns what it has found, or nothing.
   std::string look_at(std::size_t vesicle, const VelocityNoise& noise, const vesicle::VectorField& positions);
   std::string look_at(const fluid::FaceVector& velocity, long step);
+  /// Whether the second looks at the velocity after this step.
+  bool watches_fluid(long step) const;
 
   /// Whether the noise of a membrane is above its limit: a checkpoint would keep it.
   bool suspects() const;

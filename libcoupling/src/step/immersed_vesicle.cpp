@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step/immersed_vesicle.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -171,13 +173,44 @@ void ImmersedVesicle::restore_history(double dt, std::span<const double> history
     motion->restore_history(dt, history);
 }
 
+void ImmersedVesicle::carry_interface_velocity(const vesicle::MeshRedistribution& redistribution) {
+  if (!two_phase) return;
+  vesicle::VectorField velocity = two_phase->value();
+  for (int axis = 0; axis < 3; ++axis) {
+    vesicle::ScalarField component = velocity.col(axis);
+    redistribution.carry(component);
+    velocity.col(axis) = component;
+  }
+  two_phase->set(velocity);
+}
+
+void ImmersedVesicle::restore_interface_velocity(const vesicle::VectorField& velocity) {
+  const Eigen::Index expected = two_phase ? membrane.positions().rows() : 0;
+  if (velocity.rows() != expected || !velocity.isFinite().all())
+    throw std::invalid_argument(
+        fmt::format("the velocity of the interface has {} markers, expected {}, and must be finite", velocity.rows(),
+                    expected));
+  if (two_phase) two_phase->set(velocity);
+}
+
+void ImmersedVesicle::meet_start(double dt, const fluid::FaceVector& velocity) {
+  if (!sharp) return interpolate(dt, velocity);
+  update();
+  transfer.update(membrane.positions());
+  transfer.interpolate(velocity, velocities.fluid);
+  if (two_phase) two_phase->set(velocities.fluid);
+  motion->mesh_velocity(dt, membrane, velocities);
+}
+
 void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {
   if (sharp) {
     update();
     meet_grid();
     sharp->set_force(all_force_, two_phase ? &two_phase->jump() : nullptr);
-    sharp->interpolate(velocity, velocities.fluid);
-    if (two_phase) velocities.fluid *= 2.0 / (1.0 + two_phase->ratio());
+    if (two_phase)
+      velocities.fluid = two_phase->value();
+    else
+      sharp->interpolate(velocity, velocities.fluid);
     motion->mesh_velocity(dt, membrane, velocities);
     return;
   }

@@ -16,6 +16,7 @@
 #include "step/velocity_noise.h"
 #include "transfer/sharp_transfer.h"
 #include "vesicle/membrane.h"
+#include "vesicle/redistribution.h"
 #include "viscosity/interface_velocity.h"
 
 namespace vesiflow::coupling {
@@ -46,7 +47,10 @@ struct ImmersedVesicle {
   /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts in `moving`.
   void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity);
 
-  /// Velocities at markers that no step has moved yet.
+  /// Velocities at markers that no step has moved yet, in a velocity that no step has made yet: membranes have left no
+  /// jumps in it.
+  void meet_start(double dt, const fluid::FaceVector& velocity);
+  /// The same in the velocity of a step.
   void interpolate(double dt, const fluid::FaceVector& velocity);
 
   /// Force per area on the fluid (markers x 3).
@@ -54,6 +58,13 @@ struct ImmersedVesicle {
 
   /// That of the motion, left by a step of length dt; none if empty.
   void restore_history(double dt, std::span<const double> history);
+
+  /// The velocity of an interface of two viscosities; empty where there is none.
+  vesicle::VectorField interface_velocity() const { return two_phase ? two_phase->value() : vesicle::VectorField(); }
+  /// To the markers of a new mesh.
+  void carry_interface_velocity(const vesicle::MeshRedistribution& redistribution);
+  /// \throws std::invalid_argument when there is none and should be, the other way round, or it is not finite.
+  void restore_interface_velocity(const vesicle::VectorField& velocity);
 
   vesicle::Membrane membrane;
   MarkerTransfer transfer;

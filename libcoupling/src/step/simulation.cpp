@@ -21,6 +21,7 @@
 #include "step/external_forces.h"
 #include "step/immersed_vesicle.h"
 #include "step/step_control.h"
+#include "viscosity/physical_velocity.h"
 #include "viscosity/viscosity_contrast.h"
 
 namespace vesiflow::coupling {
@@ -32,8 +33,8 @@ const SimulationParameters& checked(const SimulationParameters& parameters, cons
 }
 
 std::unique_ptr<ViscosityContrast> contrast_of(const SimulationParameters& parameters) {
-  const bool has_field = parameters.has_viscosity_contrast() && parameters.coupling.method == CouplingMethod::delta;
-  return has_field ? std::make_unique<ViscosityContrast>(parameters, grid_of(parameters)) : nullptr;
+  return parameters.has_viscosity_field() ? std::make_unique<ViscosityContrast>(parameters, grid_of(parameters))
+                                          : nullptr;
 }
 
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters, const ViscosityContrast* contrast) {
@@ -64,7 +65,7 @@ Simulation::Simulation(const SimulationParameters& parameters, const Flow& flow)
   guard_ =
       std::make_unique<BlowUpGuard>(parameters_, flow.greatest_speed.value_or(std::numeric_limits<double>::infinity()));
   plan_last_step();
-  for (auto& v : vesicles_) v->interpolate(time_step(), fluid_.velocity());
+  for (auto& v : vesicles_) read_velocity(*v);
 }
 
 Simulation::~Simulation() = default;
@@ -79,15 +80,23 @@ void Simulation::make_vesicles() {
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(parameters_, flow_, i, fluid_.grid(), membrane));
   }
   external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_, own_forces_);
-  corrects_fluid_ = parameters_.coupling.method == CouplingMethod::sharp &&
-                    parameters_.fluid.inertia != fluid::Inertia::none &&
-                    parameters_.time.markers == MarkerMotion::shape_following;
+  corrects_fluid_ = parameters_.corrects_fluid();
+  if (parameters_.has_scaled_velocity() && !physical_velocity_)
+    physical_velocity_ = std::make_unique<PhysicalVelocity>(fluid_.grid());
   if (parameters_.time.markers != MarkerMotion::implicit) return;
   std::vector<ImplicitStep::Member> members;
   for (const auto& v : vesicles_) members.push_back({&dynamic_cast<ImplicitMotion&>(*v->motion), &v->membrane});
   implicit_step_ = std::make_unique<ImplicitStep>(
       std::move(members),
       FixedPoint::Limits{parameters_.time.implicit_tolerance, parameters_.time.implicit_iterations});
+}
+
+// A step has made the fluid's velocity, or it is as it was given.
+void Simulation::read_velocity(ImmersedVesicle& vesicle) {
+  if (fluid_.steps() > 0)
+    vesicle.interpolate(time_step(), fluid_.velocity());
+  else
+    vesicle.meet_start(time_step(), fluid_.velocity());
 }
 
 void Simulation::add_force(MembraneForce force) {
@@ -212,7 +221,7 @@ void Simulation::start(std::shared_ptr<const Start> start, const fluid::FaceVect
   fluid_.start_from(velocity, pressure);
   SimulationState anew = state();
   anew.vesicles.clear();
-  for (const vesicle::MembraneState& membrane : start->membranes) anew.vesicles.push_back({membrane, {}, 0});
+  for (const vesicle::MembraneState& membrane : start->membranes) anew.vesicles.push_back({membrane, {}, 0, {}});
   anew.start = std::move(start);
   restore(anew);
 }
@@ -227,7 +236,8 @@ SimulationState Simulation::state() const {
                         start_};
   for (const auto& v : vesicles_) {
     const auto history = v->motion->history();
-    state.vesicles.push_back({v->membrane.state(), {history.begin(), history.end()}, v->redistributions});
+    state.vesicles.push_back(
+        {v->membrane.state(), {history.begin(), history.end()}, v->redistributions, v->interface_velocity()});
   }
   state.clock.steps = steps();
   if (step_control_) state.step_control = step_control_->state();
@@ -255,8 +265,10 @@ void Simulation::restore(const SimulationState& state) {
     v.restore_history(fluid_.clock().time_step, state.vesicles[i].motion_history);
     v.redistributions = state.vesicles[i].redistributions;
     v.noise.restart();
-    v.interpolate(time_step(), fluid_.velocity());
+    if (fluid_.steps() > 0) v.restore_interface_velocity(state.vesicles[i].interface_velocity);
+    read_velocity(v);
   }
+  mean_flow_ = mean_flow();
   if (step_control_) step_control_->restore(state.step_control);
   if (start_control_) start_control_->restore(state.step_control);
   plan_last_step();

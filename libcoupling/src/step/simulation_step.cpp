@@ -34,6 +34,7 @@ constexpr int most_interface_passes = 60;
 }  // namespace
 
 void Simulation::step() {
+  interface_passes_ = 0;
   or_stop(parameters_, flow_, [this] {
     if (step_control_)
       take_adaptive_step();
@@ -157,19 +158,20 @@ void Simulation::correct_fluid(double dt) {
 void Simulation::iterate_interfaces() {
   const auto improve = [this] {
     const PhaseTimer timer(phases_.interpolate);
-    const fluid::Vector3 mean = mean_flow();
+    mean_flow_ = mean_flow();
     double change = 0.0;
     for (auto& v : vesicles_)
-      if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity(), mean));
+      if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity(), mean_flow_));
     return change;
   };
   if (std::ranges::none_of(vesicles_, [](const auto& v) { return v->two_phase.has_value(); })) return;
-  interface_passes_ = 1;
+  int passes = 1;
+  ++interface_passes_;
   for (double change = improve(); change > interface_tolerance; change = improve()) {
-    if (interface_passes_ == most_interface_passes)
+    if (passes == most_interface_passes)
       throw std::runtime_error(
           fmt::format("the velocities of membranes between two viscosities still change by {:.2g} after {} solves",
-                      change, interface_passes_));
+                      change, passes));
     {
       const PhaseTimer timer(phases_.spread);
       for (auto& v : vesicles_) v->clear(fluid_);
@@ -177,6 +179,7 @@ void Simulation::iterate_interfaces() {
       for (auto& v : vesicles_) v->put_force(fluid_);
     }
     fluid_.solve_again();
+    ++passes;
     ++interface_passes_;
   }
 }
@@ -188,12 +191,10 @@ fluid::Vector3 Simulation::mean_flow() const {
   if (grid.has_walls()) return mean;
   for (const auto& v : vesicles_) {
     if (!v->two_phase) continue;
-    const vesicle::Surface& surface = v->membrane.surface();
-    const vesicle::ScalarField flux = (v->two_phase->jump() * surface.normal()).rowwise().sum() * surface.area_weight();
-    const vesicle::Vector3 centre = surface.integral(surface.positions()) / surface.area();
+    const vesicle::Vector3 displaced = v->two_phase->displaced(v->membrane.surface());
     for (int axis = 0; axis < 3; ++axis)
-      mean[static_cast<std::size_t>(axis)] -= ((surface.positions().col(axis) - centre[axis]) * flux).sum() /
-                                              (grid.length(0) * grid.length(1) * grid.length(2));
+      mean[static_cast<std::size_t>(axis)] -=
+          displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
   }
   return mean;
 }
@@ -229,8 +230,10 @@ void Simulation::redistribute_markers() {
     }
     const PhaseTimer timer(phases_.redistribution);
     if (!limits.passed_by(vesicle::mesh_quality(v.membrane.surface()))) continue;
-    const vesicle::RedistributionReport report = v.membrane.redistribute(redistributions_.at(parameters_.latitudes(i)));
+    vesicle::MeshRedistribution& redistribution = redistributions_.at(parameters_.latitudes(i));
+    const vesicle::RedistributionReport report = v.membrane.redistribute(redistribution);
     if (!report.moved) continue;
+    v.carry_interface_velocity(redistribution);
     v.motion->restart();
     v.noise.restart();
     v.is_current = false;
@@ -259,7 +262,8 @@ void Simulation::check_growth() {
     if (const std::string found = guard_->look_at(i, v.noise, v.membrane.positions()); !found.empty())
       throw SimulationStopped(found, blow_up_advice(parameters_, flow_));
   }
-  if (const std::string found = guard_->look_at(fluid_.velocity(), steps()); !found.empty())
+  if (!guard_->watches_fluid(steps())) return;
+  if (const std::string found = guard_->look_at(fluid_velocity(), steps()); !found.empty())
     throw SimulationStopped(found, blow_up_advice(parameters_, flow_));
 }
 

@@ -52,6 +52,9 @@ class SharpTransfer {
   /// Velocity at the markers (markers x 3) of the last update.
   void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
 
+  /// The points of a component of the velocity, 0 to 2, that are near the membrane of the last update.
+  const GridBand& band(int component) const { return bands_[static_cast<std::size_t>(component)]; }
+
   /// Force that lacked of the total, over the sum of the sizes of the forces: a measure of the error.
   double lacking_force() const { return lacking_force_; }
 

@@ -23,12 +23,17 @@ class InterfaceVelocity {
   double ratio() const { return ratio_; }
   /// U (markers x 3), zero at first.
   const vesicle::VectorField& value() const { return velocity_; }
+  /// Takes U (markers x 3) from elsewhere.
+  void set(const vesicle::VectorField& velocity) { velocity_ = velocity; }
   /// q (markers x 3).
   const vesicle::VectorField& jump();
 
   /// Takes the mean of w on both sides (markers x 3) that the last jump() has led to. Returns how much U changes, root mean
   /// square over that of U.
   double improve(const vesicle::Surface& surface, const vesicle::VectorField& mean);
+
+  /// int x (q . n) dA, x from the centroid of the area: what the integral of w over a box is less than that of u.
+  vesicle::Vector3 displaced(const vesicle::Surface& surface);
 
  private:
   double ratio_;

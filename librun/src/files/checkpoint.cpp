@@ -69,6 +69,8 @@ void write_vesicle(Hdf5File& file, const std::string& group, const coupling::Ves
   if (!state.motion_history.empty())
     write_array(file, group + "/motion_history", state.motion_history.data(),
                 static_cast<Eigen::Index>(state.motion_history.size()));
+  if (state.interface_velocity.size() > 0)
+    write_array(file, group + "/interface_velocity", state.interface_velocity.data(), state.interface_velocity.size());
 }
 
 coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
@@ -92,6 +94,10 @@ coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& gro
   m.initial_volume = file.read_number(group, "initial_volume");
   state.redistributions = file.read_integer(group, "redistributions");
   if (file.exists(group + "/motion_history")) state.motion_history = file.read(group + "/motion_history");
+  if (file.exists(group + "/interface_velocity")) {  // of sharp membranes between two viscosities
+    state.interface_velocity.resize(markers, 3);
+    read_into(file, group + "/interface_velocity", state.interface_velocity.data(), 3 * size, path);
+  }
   return state;
 }
 
@@ -104,7 +110,7 @@ void write_start(Hdf5File& file, const coupling::Start& start) {
   file.attribute("/start", "time", start.time);
   file.attribute("/start", "steps", start.steps);
   for (std::size_t i = 0; i < start.membranes.size(); ++i)
-    write_vesicle(file, start_name(i), {start.membranes[i], {}, 0});
+    write_vesicle(file, start_name(i), {start.membranes[i], {}, 0, {}});
 }
 
 std::shared_ptr<const coupling::Start> read_start(const Hdf5File& file, const Scene& scene,

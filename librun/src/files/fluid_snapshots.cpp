@@ -56,13 +56,13 @@ void write_grid(Hdf5File& file, const fluid::Grid& grid) {
   file.attribute("/", "cells", std::vector<double>(grid.cells.begin(), grid.cells.end()));
 }
 
-void write_fields(Hdf5File& file, const fluid::NavierStokes& fluid) {
-  const fluid::Grid& grid = fluid.grid();
+void write_fields(Hdf5File& file, const SceneSimulation& simulation) {
+  const fluid::Grid& grid = simulation.fluid().grid();
   const Hdf5File::Shape cells{static_cast<std::uint64_t>(grid.cells[2]), static_cast<std::uint64_t>(grid.cells[1]),
                               static_cast<std::uint64_t>(grid.cells[0])};
   write_grid(file, grid);
-  file.write("/velocity", cell_velocity(fluid.velocity()).data(), {cells[0], cells[1], cells[2], 3});
-  file.write("/pressure", cell_values(fluid.pressure()).data(), cells);
+  file.write("/velocity", cell_velocity(simulation.fluid_velocity()).data(), {cells[0], cells[1], cells[2], 3});
+  file.write("/pressure", cell_values(simulation.fluid().pressure()).data(), cells);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ void write_fields(Hdf5File& file, const fluid::NavierStokes& fluid) {
 SnapshotSeries::Kind fluid_snapshots(const SceneSimulation& simulation) {
   return {.name = "fluid",
           .head = [&simulation](Hdf5File& list) { write_grid(list, simulation.fluid().grid()); },
-          .fill = [&simulation](Hdf5File& snapshot) { write_fields(snapshot, simulation.fluid()); },
+          .fill = [&simulation](Hdf5File& snapshot) { write_fields(snapshot, simulation); },
           .xdmf = [&simulation](const std::string& file, long step,
                                 double time) { return xdmf_grid(file, step, time, simulation.fluid().grid()); }};
 }

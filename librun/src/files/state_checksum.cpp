@@ -49,6 +49,8 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
     add_array(sum, vesicle.motion_history);
     sum.add(vesicle.membrane.initial_volume);
     sum.add(vesicle.redistributions);
+    // Other states are summed as they were before there was such a velocity.
+    if (vesicle.interface_velocity.size() > 0) add_array(sum, vesicle.interface_velocity);
   }
   if (state.start) {
     sum.add(state.start->run);

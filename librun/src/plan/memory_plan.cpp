@@ -11,6 +11,7 @@
 
 #include "coupling/simulation.h"
 #include "plan/available_memory.h"
+#include "plan/sharp_plan.h"
 #include "plan/viscosity_plan.h"
 #include "run/plan.h"
 
@@ -61,9 +62,15 @@ MemoryPlan plan_memory(const Scene& scene) {
   plan.fluid = viscosity.fluid_bytes + viscosity.indicator_bytes;
   plan.membranes = table_bytes(scene);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) plan.membranes += membrane_bytes(scene, i);
+  if (scene.coupling.method == coupling::CouplingMethod::sharp) {
+    // The source of the divergence, and the velocity that is shown where it is not the one that is solved for.
+    plan.fluid += (scene.has_scaled_velocity() ? 4.0 : 1.0) * field;
+    plan.membranes += sharp_bytes(scene);
+  }
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
   const double remembered = (viscosity.is_variable ? 5.0 : 4.0) * field;
-  if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit) plan.steps = remembered;
+  if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit || scene.corrects_fluid())
+    plan.steps = remembered;
   // Two velocities and a pressure; four single precision numbers per cell.
   if (scene.output.checkpoint_every > 0.0) plan.output = 7.0 * field;
   if (scene.output.fluid_every > 0.0) plan.output = std::max(plan.output, 2.0 * field);

@@ -21,6 +21,7 @@
 #include "plan/memory_plan.h"
 #include "plan/plan_totals.h"
 #include "plan/recommended_region.h"
+#include "plan/sharp_plan.h"
 #include "plan/viscosity_plan.h"
 #include "scene/accuracy.h"
 #include "vesicle/mesh_control.h"
@@ -29,6 +30,8 @@
 
 namespace vesiflow::run {
 namespace {
+
+constexpr auto equal_viscosities = "the viscosity ratio of every vesicle is 1";
 
 std::string interval(double every) {
   return every > 0.0 ? fmt::format("every {:g}", every) : "never";
@@ -50,6 +53,10 @@ class Plan {
  private:
   std::string text_;
 };
+
+bool is_sharp(const Scene& scene) {
+  return scene.coupling.method == coupling::CouplingMethod::sharp;
+}
 
 std::string describe_time(const Scene& scene) {
   if (!scene.time.adaptive)
@@ -85,7 +92,7 @@ void describe_cells_across(Plan& plan, const Scene& scene) {
   for (const coupling::VesicleParameters& vesicle : scene.vesicles) smallest = std::min(smallest, vesicle.radius);
   const double across = 2.0 * smallest / scene.spacing();
   plan.line("cells across a vesicle", "{:.1f}{}", across,
-            across < coupling::validity::fewest_cells_across
+            !is_sharp(scene) && across < coupling::validity::fewest_cells_across
                 ? "  <- WARNING: below 8 its frequency is off by 5 % and more, at 4 by 10 %"
                 : "");
 }
@@ -158,8 +165,12 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("membranes", "{} of {} x {} markers{}, spacing {}", scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", describe_marker_spacing(scene));
   describe_cells_across(plan, scene);
-  if (scene.has_viscosity_contrast())
+  if (is_sharp(scene)) {
+    plan.line("recommended region", "{}", describe_sharp_region(scene));
+    plan.line("error of the grid", "of second order in the spacing, not measured in whole runs yet: compare two spacings");
+  } else if (scene.has_viscosity_contrast()) {
     plan.line("error of the grid", "of first order in the spacing where viscosities differ: compare two spacings");
+  }
   std::vector<vesicle::VectorField> markers;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i)
     markers.push_back(coupling::initial_markers(scene.vesicles[i], scene.latitudes(i)));
@@ -229,15 +240,19 @@ void describe_fluid(Plan& plan, const Scene& scene) {
   plan.part(steps_in_time, "acceleration", "BDF2, first step backward Euler" + inertia_warning(scene),
             "fluid.inertia = \"none\"");
   plan.part(steps_in_time, "viscosity", "implicit: " + viscosity.solve, "fluid.inertia = \"none\"");
-  plan.part(viscosity.is_variable, "indicator", viscosity.indicator, "the viscosity ratio of every vesicle is 1");
-  plan.part(viscosity.is_variable, "variable viscosity", viscosity.treatment,
-            "the viscosity ratio of every vesicle is 1");
+  const std::string no_field = scene.has_scaled_velocity()
+                                   ? "coupling.method = \"sharp\": mu u is solved for, with viscosity 1"
+                                   : equal_viscosities;
+  plan.part(viscosity.is_variable, "indicator", viscosity.indicator, no_field);
+  plan.part(viscosity.is_variable, "variable viscosity", viscosity.treatment, no_field);
   plan.part(steps_in_time, "pressure",
             "rotational correction: " +
                 describe_solver({grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0},
                                 scene.fluid.pressure_solver),
             "fluid.inertia = \"none\"");
-  plan.part(!steps_in_time, "Stokes solve", "velocity and pressure together, to a tolerance",
+  plan.part(!steps_in_time, "Stokes solve",
+            fmt::format("velocity and pressure together, to a tolerance{}",
+                        viscosity.is_variable ? "" : ", with constant coefficients"),
             "fluid.inertia is not \"none\"");
 }
 
@@ -305,10 +320,15 @@ void describe_step(Plan& plan, const Scene& scene) {
                                               : ""),
             "membrane.volume is not \"penalty\"");
   describe_external_forces(plan, scene);
-  plan.part(true, "spread, interpolate", describe_kernel(scene.coupling.kernel), "");
+  plan.part(!is_sharp(scene), "spread, interpolate", describe_kernel(scene.coupling.kernel),
+            "coupling.method = \"sharp\": but for what the jumps lack of total force and torque");
+  plan.part(is_sharp(scene), "jumps", describe_jumps(scene), "coupling.method = \"delta\"");
+  plan.part(scene.has_scaled_velocity(), "interface velocity", describe_interface_passes(scene),
+            is_sharp(scene) ? equal_viscosities : "coupling.method = \"delta\"");
   plan.part(scene.coupling.thickness_correction, "thickness correction",
             fmt::format("of {:.3g} h per viscosity, in low degrees", coupling::thickening(scene.coupling.kernel)),
-            "coupling.thickness_correction = false");
+            is_sharp(scene) ? "coupling.method = \"sharp\": membranes have no thickness"
+                            : "coupling.thickness_correction = false");
   describe_fluid(plan, scene);
   plan.part(moving, "wall velocity", scene.flow.type == FlowType::custom ? "of a program" : flow_of(scene).description,
             "flow.type = \"rest\"");
@@ -339,7 +359,9 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(true, "markers", describe_markers(scene), "");
   plan.part(follows && tension, "strain field",
             implicit ? "with forces and velocities of the new time"
-                     : "implicit in tension and bending, momentum of its corrections owed to the fluid",
+            : scene.corrects_fluid()
+                ? "implicit in tension and bending; the fluid is solved a second time with the forces of these terms"
+                : "implicit in tension and bending, momentum of its corrections owed to the fluid",
             follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
   plan.part(follows && !scene.time.adaptive, "start", "in parts of steps where shapes start far from rest",
             follows ? "time.adaptive = true" : fmt::format("time.markers = \"{}\"", name(scene.time.markers)));

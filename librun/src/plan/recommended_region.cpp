@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "coupling/delta_kernel.h"
 #include "coupling/flow.h"
 #include "coupling/validity.h"
 #include "plan/available_memory.h"
@@ -38,16 +39,24 @@ std::string describe_marker_spacing(const Scene& scene) {
   const std::string text = most > (1.0 + round_off) * least ? fmt::format("about {:.2f} to {:.2f} h", least, most)
                                                             : fmt::format("about {:.2f} h", most);
   std::string warning;
-  if (most > widest_markers)
+  const bool is_mapped = scene.coupling.method == coupling::CouplingMethod::delta;
+  if (is_mapped && most > widest_markers)
     warning = fmt::format(
         "  <- WARNING: markers more than h apart let the fluid through between them, and runs stop: take "
         "mesh.latitudes >= {:.0f}",
         std::ceil(std::numbers::pi * radius / h / 8.0) * 8.0);
-  else if (least < closest_markers)
+  else if (is_mapped && least < closest_markers)
     warning =
         "  <- WARNING: markers so close bring nothing that the fluid's grid resolves: fewer mesh.latitudes or more "
         "domain.cells";
   return text + " at the equator of a sphere" + warning;
+}
+
+std::string describe_sharp_region(const Scene& scene) {
+  return fmt::format(
+      "not mapped yet for coupling.method = \"sharp\": the limits of this plan are those of \"delta\"; no mirrors, "
+      "and walls at least {:g} h off",
+      coupling::wall_clearance(scene.coupling.kernel));
 }
 
 std::string step_warning(const Scene& scene) {

@@ -17,6 +17,9 @@ double stable_convection_step(const Scene& scene);
 /// Spacing of the markers in those of the grid, of the vesicles that have most and least of it, with its warning.
 std::string describe_marker_spacing(const Scene& scene);
 
+/// What is known of sharp membranes, which the limits were not found with.
+std::string describe_sharp_region(const Scene& scene);
+
 std::string step_warning(const Scene& scene);     ///< of time.step against the rate of the flow
 std::string bending_warning(const Scene& scene);  ///< of time.step against 1/Ca
 std::string inertia_warning(const Scene& scene);  ///< of the Reynolds number

@@ -98,7 +98,7 @@ ViscosityPlan plan_viscosity(const Scene& scene) {
   const fluid::Grid grid = coupling::grid_of(scene);
   const auto [least, greatest] = scene.viscosity_range();
   ViscosityPlan plan;
-  plan.is_variable = scene.has_viscosity_contrast();
+  plan.is_variable = scene.has_viscosity_field();
   const bool is_coupled = plan.is_variable && scene.fluid.inertia != fluid::Inertia::none &&
                           scene.fluid.viscous_treatment == ViscousTreatment::implicit;
   plan.solve = describe_solve(scene, grid, greatest, is_coupled);

@@ -32,6 +32,7 @@ struct RunRecord {
   std::vector<Retry> retries;
   RunQuality quality;
   long steps_taken = 0;      ///< by this process
+  long interface_passes = 0; ///< solves in these steps, see coupling::Simulation::interface_passes()
   fluid::PhaseAccount wall;  ///< of these steps, output included
   fluid::PhaseAccount output_table, output_vesicle, output_fluid, output_checkpoint;
 };

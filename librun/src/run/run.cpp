@@ -158,6 +158,7 @@ void Run::take_step() {
   const PhaseTimer timer(record_.wall);
   simulation_.step();
   ++record_.steps_taken;
+  record_.interface_passes += simulation_.interface_passes();
   record_.quality.observe_step(simulation_);
   log_->say_step(simulation_);
   if (options_.after_step) options_.after_step(simulation_);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -65,7 +66,9 @@ class RunQuality {
   struct SceneNumbers {
     double tension_number, stable_tension_number;  ///< the second infinite where there is no limit
     double convection_step_ratio;                  ///< largest step over the stable one; 0 without convection
-    double grid_error;  ///< relative, of angles and frequencies in steady flow (validation/studies/thickening.md)
+    /// Relative, of angles and frequencies in steady flow (validation/studies/thickening.md); none for sharp membranes,
+    /// whose error is of second order in the spacing and not measured yet.
+    std::optional<double> grid_error;
   };
   SceneNumbers scene_numbers() const;
 

@@ -124,7 +124,7 @@ void start_from(const std::filesystem::path& run, SceneSimulation& simulation) {
   start->run = std::filesystem::absolute(file).lexically_normal().string();
   start->time = contents.state.clock.time;
   start->steps = contents.state.clock.steps;
-  fluid::resample(contents.state.velocity, pattern.velocity);
+  fluid::resample(coupling::fluid_velocity_of(contents.scene, contents.state), pattern.velocity);
   fluid::resample(contents.state.pressure, pattern.pressure);
   try {
     for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {

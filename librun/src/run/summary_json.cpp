@@ -105,11 +105,20 @@ Json errors_of(const RunQuality::Errors& errors) {
           {"divergence", finite_or_null(errors.divergence)}};
 }
 
+// Solves for the velocities of sharp membranes between two viscosities.
+Json interface_passes_of(const SceneSimulation& simulation, const RunRecord& record) {
+  if (!simulation.scene().has_scaled_velocity()) return nullptr;
+  return {{"last_step", simulation.interface_passes()},
+          {"per_step", record.steps_taken > 0 ? Json(static_cast<double>(record.interface_passes) /
+                                                     static_cast<double>(record.steps_taken))
+                                              : Json(nullptr)}};
+}
+
 Json numbers_of(const RunQuality::SceneNumbers& numbers) {
   return {{"g", numbers.tension_number},
           {"stable_g", finite_or_null(numbers.stable_tension_number)},
           {"convection_step_ratio", numbers.convection_step_ratio},
-          {"grid_error", numbers.grid_error}};
+          {"grid_error", numbers.grid_error ? Json(*numbers.grid_error) : Json(nullptr)}};
 }
 
 }  // namespace
@@ -134,6 +143,7 @@ void write_summary(const std::filesystem::path& directory, const RunOptions& opt
   summary["time_step"] = simulation.time_step();
   summary["rejected_steps"] = simulation.rejected_steps();
   summary["start_parts"] = simulation.start_parts();
+  summary["interface_passes"] = interface_passes_of(simulation, record);
   summary["wall_seconds"] = record.wall.seconds;
   summary["seconds_per_step"] =
       record.steps_taken > 0 ? Json(record.wall.seconds / static_cast<double>(record.steps_taken)) : Json(nullptr);

@@ -149,5 +149,33 @@ TEST(DamagedState, HistoriesMustBeFiniteWithCountsThatAreCounts) {
   EXPECT_NE(wrong_with("shape_following", with(1, 1e300)), "nothing");
 }
 
+// Whether the file has a data set of that name.
+bool has_data(const fs::path& path, const char* name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const bool has = H5Lexists(file, name, H5P_DEFAULT) > 0;
+  H5Fclose(file);
+  return has;
+}
+
+// What only sharp membranes between two viscosities have is no part of other files, which are what they were before there was any.
+TEST_F(CheckpointContents, OnlyInterfacesOfTwoViscositiesHaveAVelocity) {
+  EXPECT_TRUE(has_data(path_, "/vesicle_0/positions"));
+  EXPECT_FALSE(has_data(path_, "/vesicle_0/interface_velocity"));
+  SceneSimulation sharp(coupling::small_scene({"domain.cells=12", "mesh.latitudes=8", "mesh.tangential_degrees=8",
+                                               "time.markers=shape_following", "coupling.method=sharp",
+                                               "fluid.inertia=none", "fluid.viscosity_ratio=5"}));
+  sharp.step();
+  write_checkpoint(path_, sharp);
+  EXPECT_TRUE(has_data(path_, "/vesicle_0/interface_velocity"));
+  const coupling::SimulationState state = read_checkpoint(path_).state;
+  EXPECT_TRUE((state.vesicles[0].interface_velocity == sharp.state().vesicles[0].interface_velocity).all());
+  EXPECT_TRUE((state.vesicles[0].interface_velocity == sharp.marker_velocity(0)).all());
+
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(file, "/vesicle_0/interface_velocity", H5P_DEFAULT);
+  H5Fclose(file);
+  EXPECT_THROW(restore_checkpoint(path_, sharp), SceneError);
+}
+
 }  // namespace
 }  // namespace vesiflow::run

@@ -42,6 +42,8 @@ void expect_same_state(const fs::path& a, const fs::path& b, const Scene& scene)
     EXPECT_TRUE((x.vesicles[i].membrane.lagged_strain == y.vesicles[i].membrane.lagged_strain).all());
     EXPECT_TRUE((x.vesicles[i].membrane.integral_tension == y.vesicles[i].membrane.integral_tension).all());
     EXPECT_EQ(x.vesicles[i].motion_history, y.vesicles[i].motion_history);
+    EXPECT_EQ(x.vesicles[i].interface_velocity.rows(), y.vesicles[i].interface_velocity.rows());
+    EXPECT_TRUE((x.vesicles[i].interface_velocity == y.vesicles[i].interface_velocity).all());
     EXPECT_EQ(x.vesicles[i].redistributions, y.vesicles[i].redistributions);
   }
   EXPECT_EQ(x.step_control, y.step_control);
@@ -105,6 +107,24 @@ TEST_F(Restart, ContinuesBitForBitWithEveryTreatmentOfTheViscosity) {
   Overrides without_inertia = contrast;
   without_inertia.emplace_back("fluid.inertia=none");
   compare_restart(folder_ / "none", without_inertia, 2);
+}
+
+// The iteration for the velocity of a membrane between two viscosities begins with that of the last step, which the state has.
+TEST_F(Restart, ContinuesBitForBitWithSharpMembranes) {
+  const Overrides all{"coupling.method=sharp", "fluid.inertia=none", "domain.cells=16",
+                      "time.step=1/32",        "time.end=0.375",     "output.checkpoint_every=0.125"};
+  const auto compare = [&](const char* name, std::initializer_list<std::string> more) {
+    Overrides overrides = all;
+    overrides.insert(overrides.end(), more);
+    SCOPED_TRACE(name);
+    compare_restart(folder_ / name, overrides, 2);
+  };
+  compare("equal", {"time.markers=shape_following"});
+  compare("inertia", {"time.markers=shape_following", "fluid.inertia=full"});
+  compare("thick", {"time.markers=shape_following", "fluid.viscosity_ratio=5"});
+  compare("thin", {"time.markers=shape_following", "fluid.viscosity_ratio=0.2"});
+  compare("adaptive", {"time.markers=shape_following", "fluid.viscosity_ratio=5", "time.adaptive=true"});
+  if (have_sundials()) compare("implicit", {"time.markers=implicit", "fluid.viscosity_ratio=5"});
 }
 
 TEST_F(Restart, ContinuesBitForBitWithVesiclesOfTheirOwnViscosity) {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "files/hdf5_file.h"
 #include "run/errors.h"
 #include "run/plan.h"
 #include "run/run_in_folder.h"
@@ -95,6 +96,53 @@ TEST_F(RunFiles, PlanSaysHowManySnapshotsThereWillBeAndOfWhatSize) {
     EXPECT_NEAR(std::stod(said[2]) / (1e-6 * bytes / files), 1.0, 0.03) << name;
     EXPECT_NEAR(std::stod(said[3]) / (1e-6 * bytes), 1.0, 0.03) << name;
   }
+}
+
+// Of a fluid that is solved for mu u they hold u, as a mean of two faces.
+TEST_F(RunFiles, SnapshotsHoldTheVelocityOfTheFluidWhateverItWasSolvedFor) {
+  const Scene scene = small_scene({"coupling.method=sharp", "fluid.inertia=none", "fluid.viscosity_ratio=5",
+                                   "time.markers=shape_following", "domain.cells=16", "time.step=1/24", "time.end=2/24",
+                                   "output.fluid_every=1/24"});
+  SceneSimulation simulation(scene);
+  run(simulation, options_in(at("run")));
+  const auto stored = [&](const char* name) {
+    return Hdf5File(at("run") / "snapshots" / name, Hdf5File::Mode::read).read("/velocity");
+  };
+  const std::vector<double> at_start = stored("fluid_000000000.h5"), at_end = stored("fluid_000000002.h5");
+  const fluid::Field<fluid::FaceX>& u = simulation.fluid_velocity().x;
+  const fluid::Field<fluid::FaceX>& w = simulation.fluid().velocity().x;
+  ASSERT_EQ(at_end.size(), 3U * 16 * 16 * 16);
+  EXPECT_NEAR(w(8, 8, 9) / u(8, 8, 9), 5.0, 1e-12) << "or this tests nothing";
+  for (int k = 0; k < 16; ++k) {
+    const std::size_t place = 3U * ((static_cast<std::size_t>(k) * 16 + 8) * 16 + 8);
+    EXPECT_NEAR(at_end[place], 0.5 * (u(8, 8, k) + u(9, 8, k)), 1e-6) << k;
+    EXPECT_NEAR(at_start[place], -3.0 + (k + 0.5) * 0.375, 1e-6) << k;  // undisturbed
+  }
+}
+
+// Only where there are any: else the summary has no number of them.
+TEST_F(RunFiles, SummaryCountsTheSolvesForTheVelocitiesOfInterfaces) {
+  const auto said = [&](const char* name, std::initializer_list<std::string> more) {
+    Overrides overrides{"time.markers=shape_following", "domain.cells=16", "time.step=1/24", "time.end=3/24",
+                        "coupling.method=sharp", "fluid.inertia=none"};
+    overrides.insert(overrides.end(), more);
+    long solves = 0, last = 0;
+    SceneSimulation simulation(small_scene(overrides));
+    RunOptions options = options_in(at(name));
+    options.after_step = [&](const SceneSimulation& now) { solves += last = now.interface_passes(); };
+    run(simulation, options);
+    const std::string summary = text_of(at(name) / "summary.json");
+    const std::regex null(R"("interface_passes": null)"),
+        numbers(R"re("interface_passes": \{\s*"last_step": (\d+),\s*"per_step": ([0-9.]+)\s*\})re");
+    std::smatch found;
+    if (std::regex_search(summary, null)) return 0.0;
+    EXPECT_TRUE(std::regex_search(summary, found, numbers)) << summary;
+    EXPECT_EQ(std::stol(found[1]), last);
+    EXPECT_NEAR(std::stod(found[2]), static_cast<double>(solves) / 3.0, 1e-6);
+    return std::stod(found[2]);
+  };
+  EXPECT_EQ(said("equal", {}), 0.0);
+  EXPECT_GT(said("two", {"fluid.viscosity_ratio=5"}), 1.0);
 }
 
 TEST_F(RunFiles, CallsBackAfterEachStepAndBeforeEachOutput) {

@@ -97,5 +97,15 @@ TEST(RunQuality, AdvisesNothingThatTheSceneDoes) {
   EXPECT_EQ(said("euler").find("vesicle 0"), std::string::npos);                         // there is no other
 }
 
+// The estimate is that of the thickness of a membrane, which a sharp one has none of.
+TEST(RunQuality, EstimatesTheErrorOfDeltaFunctionsOnly) {
+  const Scene delta = coupling::small_scene({"time.markers=shape_following"});
+  const auto error = RunQuality(delta).scene_numbers().grid_error;
+  ASSERT_TRUE(error.has_value());
+  EXPECT_NEAR(*error, 0.19 * 0.25, 1e-12);
+  const Scene sharp = coupling::small_scene({"time.markers=shape_following", "coupling.method=sharp"});
+  EXPECT_FALSE(RunQuality(sharp).scene_numbers().grid_error.has_value());
+}
+
 }  // namespace
 }  // namespace vesiflow::run

@@ -206,6 +206,27 @@ TEST_F(StartFrom, OutsideTheBoxOfTheRunThereIsTheFlowOfTheScene) {
   EXPECT_NO_THROW(simulation.step());
 }
 
+// A run with sharp membranes between two viscosities is solved for mu u, and its checkpoint has that; what comes over is u.
+TEST_F(StartFrom, TheVelocityOfARunWithSharpMembranesIsThatOfItsFluid) {
+  const Scene sharp = scene_with({"coupling.method=sharp", "fluid.inertia=none", "fluid.viscosity_ratio=5"});
+  SceneSimulation simulation(sharp);
+  run(simulation, {.directory = folder_ / "sharp", .quiet = true});
+  ASSERT_GT((read_checkpoint(folder_ / "sharp/checkpoint.h5").state.velocity.x(10, 10, 12) /
+             simulation.fluid_velocity().x(10, 10, 12)),
+            4.9)
+      << "or this tests nothing";
+  for (const Scene& scene : {scene_with({}), scene_with({"fluid.viscosity_ratio=5"}), sharp}) {
+    SceneSimulation anew(scene);
+    start_from(folder_ / "sharp", anew);
+    // But for what makes it free of divergence next to the membrane.
+    const fluid::Field<fluid::FaceX>& u = simulation.fluid_velocity().x;
+    const fluid::Field<fluid::FaceX>& at_start = anew.fluid_velocity().x;
+    for (int k = 0; k < u.extent(2); ++k) EXPECT_NEAR(at_start(10, 10, k), u(10, 10, k), 0.1) << k;
+    EXPECT_LT((anew.marker_velocity(0) - simulation.marker_velocity(0)).abs().maxCoeff(), 0.15);
+    EXPECT_NO_THROW(anew.step());
+  }
+}
+
 TEST_F(StartFrom, WhatDoesNotFitIsRefusedByName) {
   const Scene scene = scene_with({});
   Scene two = scene;

@@ -101,6 +101,8 @@ TEST(Scene, AccuracyIsRefusedWhereNoSettingsAreKnown) {
   expect_parts(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=1"}),
                {"1e-3", "reynolds_number = 1"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "method.preset=paper"}), {"1e-2", "paper"});
+  expect_parts(message_of(sphere, {"method.accuracy=1e-2", "coupling.method=sharp"}),
+               {"1e-2", "no settings are known", "sharp"});
   expect_parts(message_of(sphere, {"method.accuracy=0.5"}), {"0.5", "1e-2"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "domain.lower=[1, 1e9, 1]"}), {"domain"});
 }

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// What plans say of membranes without thickness.
+#include "plan/sharp_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "plan/cost_model.h"
+#include "plan/memory_plan.h"
+#include "run/plan.h"
+#include "support/small_scene.h"
+
+namespace vesiflow::run {
+namespace {
+
+Scene sharp(std::initializer_list<std::string> more) {
+  Overrides all{"coupling.method=sharp", "fluid.inertia=none", "time.markers=shape_following"};
+  all.insert(all.end(), more);
+  return coupling::small_scene(all);
+}
+
+// The same scene, coupled by a delta function.
+Scene delta(std::initializer_list<std::string> more) {
+  Scene scene = sharp(more);
+  scene.coupling.method = coupling::CouplingMethod::delta;
+  return scene;
+}
+
+class PlanText {
+ public:
+  explicit PlanText(const Scene& scene) : text_(describe_plan(scene, 1)) {}
+  void has(const std::string& part) const { EXPECT_NE(text_.find(part), std::string::npos) << part << "\n" << text_; }
+  void has_not(const std::string& part) const {
+    EXPECT_EQ(text_.find(part), std::string::npos) << part << "\n" << text_;
+  }
+  void does(const std::string& part) const { has("  + " + part + " "); }
+  void skips(const std::string& part, const std::string& why) const {
+    std::string line = "  - " + part;
+    line.resize(34, ' ');
+    has(line + "skipped: " + why);
+  }
+
+ private:
+  std::string text_;
+};
+
+TEST(SharpPlan, SaysWhichMethodAndWhatItSkips) {
+  const PlanText equal(sharp({}));
+  equal.does("jumps");
+  equal.skips("spread, interpolate", "coupling.method = \"sharp\"");
+  equal.skips("interface velocity", "the viscosity ratio of every vesicle is 1");
+  equal.skips("indicator", "the viscosity ratio of every vesicle is 1");
+  equal.skips("thickness correction", "coupling.method = \"sharp\"");
+  equal.has("with constant coefficients");
+
+  const PlanText two(sharp({"fluid.viscosity_ratio=5"}));
+  two.does("jumps");
+  two.does("interface velocity");
+  two.has("mu between 1 and 5: about ");
+  two.has(" solves with viscosity 1 in a step");
+  two.skips("indicator", "coupling.method = \"sharp\"");
+  two.skips("variable viscosity", "coupling.method = \"sharp\"");
+  two.has("velocity and pressure together, to a tolerance, with constant coefficients");
+}
+
+TEST(SharpPlan, OfDeltaFunctionsSaysSo) {
+  for (const char* ratio : {"fluid.viscosity_ratio=1", "fluid.viscosity_ratio=5"}) {
+    const PlanText plan(delta({ratio}));
+    plan.does("spread, interpolate");
+    plan.skips("jumps", "coupling.method = \"delta\"");
+    plan.skips("interface velocity", "coupling.method = \"delta\"");
+    plan.has_not("recommended region");
+    plan.has_not("not mapped");
+  }
+  PlanText(delta({"fluid.viscosity_ratio=5"})).has_not("with constant coefficients");
+}
+
+// Limits that were found with delta functions are no warnings here.
+TEST(SharpPlan, SaysThatItsRegionIsNotMapped) {
+  const PlanText plan(sharp({}));
+  plan.has("not mapped yet");
+  plan.has("no mirrors, and walls at least 1.5 h off");
+  PlanText(sharp({"coupling.kernel=bspline43"})).has("walls at least 1 h off");
+  plan.has("error of the grid               of second order");
+  for (const auto& coarse : {"domain.cells=16", "domain.cells=48"}) {
+    PlanText(delta({coarse, "mesh.latitudes=40"})).has("WARNING");
+    PlanText(sharp({coarse, "mesh.latitudes=40"})).has_not("WARNING");
+  }
+}
+
+std::map<std::string, PhaseCost> costs_of(const Scene& scene) {
+  std::map<std::string, PhaseCost> costs;
+  for (const PhaseCost& cost : estimate_costs(scene)) costs[cost.phase] = cost;
+  return costs;
+}
+
+TEST(SharpPlan, EachPassCostsItsSolveAndItsJumps) {
+  EXPECT_EQ(fluid_solves(sharp({})), 1.0);
+  EXPECT_EQ(fluid_solves(delta({"fluid.viscosity_ratio=5"})), 1.0);
+  const Scene two = sharp({"fluid.viscosity_ratio=5"});
+  const double passes = fluid_solves(two);
+  EXPECT_GT(passes, 1.0);
+  auto once = costs_of(sharp({})), again = costs_of(two), thick = costs_of(delta({}));
+  for (const char* phase : {"spread", "interpolate", "fluid_momentum"})
+    EXPECT_NEAR(again[phase].seconds, passes * once[phase].seconds, 1e-12 * again[phase].seconds) << phase;
+  for (const char* phase : {"membrane", "mesh", "diagnostics"})
+    EXPECT_EQ(again[phase].seconds, thick[phase].seconds) << phase;
+  EXPECT_GT(once["spread"].seconds, thick["spread"].seconds);
+  EXPECT_EQ(once["fluid_momentum"].seconds, thick["fluid_momentum"].seconds);
+  EXPECT_TRUE(once["spread"].rough && once["interpolate"].rough);
+  for (const char* phase : {"indicator", "fluid_viscous"}) {
+    EXPECT_EQ(again[phase].seconds, 0.0) << phase;
+    EXPECT_EQ(again[phase].off, "coupling.method = \"sharp\": mu u is solved for") << phase;
+  }
+}
+
+// The fluid of a step with inertia is solved a second time, from a state that it remembers.
+TEST(SharpPlan, WithInertiaTheFluidIsCorrected) {
+  const Scene scene = sharp({"fluid.inertia=full"});
+  EXPECT_EQ(fluid_solves(scene), 2.0);
+  EXPECT_EQ(fluid_solves(delta({"fluid.inertia=full"})), 1.0);
+  EXPECT_EQ(fluid_solves(sharp({"fluid.inertia=full", "time.markers=implicit"})), 1.0);
+  PlanText(scene).has("the fluid is solved a second time");
+  PlanText(sharp({})).has_not("the fluid is solved a second time");
+  auto sharp_costs = costs_of(scene), delta_costs = costs_of(delta({"fluid.inertia=full"}));
+  for (const char* phase : {"fluid_convection", "fluid_momentum", "fluid_projection"})
+    EXPECT_EQ(sharp_costs[phase].seconds, 2.0 * delta_costs[phase].seconds) << phase;
+  EXPECT_GT(plan_memory(scene).steps, plan_memory(sharp({})).steps);
+}
+
+// A source of the divergence, a field at the cells, and between two viscosities a velocity; no indicator and no field of viscosity.
+TEST(SharpPlan, CountsTheFieldsThatItHas) {
+  const auto fluid = [](const Scene& scene) { return plan_memory(scene).fluid; };
+  const double field = 8.0 * 26.0 * 26.0 * 26.0;  // of 24^3 cells
+  EXPECT_NEAR(fluid(sharp({})) - fluid(delta({})), field, 1e-9 * field);
+  EXPECT_NEAR(fluid(sharp({"fluid.viscosity_ratio=5"})) - fluid(sharp({})), 3.0 * field, 1e-9 * field);
+  EXPECT_GT(fluid(delta({"fluid.viscosity_ratio=5"})), fluid(sharp({"fluid.viscosity_ratio=5"})));
+  const double coarse = sharp_bytes(sharp({})), fine = sharp_bytes(sharp({"domain.cells=96"}));
+  EXPECT_NEAR(plan_memory(sharp({})).membranes - plan_memory(delta({})).membranes, coarse, 1e-9 * coarse);
+  EXPECT_GT(fine, 8.0 * coarse);  // between squares and cubes of the cells
+  EXPECT_LT(fine, 64.0 * coarse);
+}
+
+}  // namespace
+}  // namespace vesiflow::run
