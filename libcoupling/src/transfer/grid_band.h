@@ -3,72 +3,107 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "fluid/centring.h"
 #include "fluid/grid.h"
+#include "transfer/feet.h"
 #include "transfer/fine_surface.h"
+#include "transfer/grid_box.h"
+#include "transfer/nearest_nodes.h"
+#include "vesicle/types.h"
 
 namespace vesiflow::coupling {
 
 /// The points of one centring of the grid that are near a surface: their signed distances (positive outside), and the
-/// jump continued to each by Taylor's expansion along the normal through its closest point of the surface.
+/// jump continued to each by Taylor's expansion along the normal through its foot, the closest point of the surface.
 ///
-/// Held as a dense box of points around the surface. Indices run on across periodic axes: i and i + cells are the same
-/// point of the grid, seen from a surface that lies across the end of the box.
+/// Held as a list of these points, plane by plane, and as a dense box around the surface, for stencils. Indices run on
+/// across periodic axes: i and i + cells are the same point of the grid, seen from a surface that lies across the end of
+/// the box.
 class GridBand {
  public:
+  struct Point {
+    std::array<int, 3> index;
+    std::int32_t at;  ///< its offset()
+    /// May be at the distance `far`, if it turned out not to belong to the band.
+    Foot foot;
+    double distance() const { return foot.distance; }
+  };
+
   GridBand(const fluid::Grid& grid, fluid::Centring centring);
 
-  /// Finds the points within `width` of the surface and their closest points on it.
-  void update(const FineSurface& surface, double width);
+  /// Finds the points within `width` of the surface and their feet. They do not depend on what was found before.
+  /// \param readers positions on the surface, shape (readers, 3): what they read is in the band however far it is. None
+  /// if null
+  void update(const FineSurface& surface, double width, const vesicle::VectorField* readers = nullptr);
 
   /// Evaluates the jump at these points from `record` of the same surface: four numbers g, g_n, g_nn, g_nnn give
   /// g + d g_n + d^2/2 g_nn + d^3/6 g_nnn.
   void evaluate(const FineSurface& surface, int record);
 
-  /// Where the box begins, and its extent.
-  const std::array<int, 3>& first() const { return first_; }
-  const std::array<int, 3>& extent() const { return extent_; }
+  /// The points of the band, in an order that does not depend on the number of threads.
+  std::span<const Point> points() const { return points_; }
+  /// Points of the band.
+  std::size_t count() const;
 
-  bool contains(int i, int j, int k) const {
-    return i >= first_[0] && i < first_[0] + extent_[0] && j >= first_[1] && j < first_[1] + extent_[1] &&
-           k >= first_[2] && k < first_[2] + extent_[2];
+  /// Where the box begins, and its extent.
+  const std::array<int, 3>& first() const { return box_.first; }
+  const std::array<int, 3>& extent() const { return box_.extent; }
+  bool contains(int i, int j, int k) const { return box_.contains(i, j, k); }
+  std::ptrdiff_t offset(int i, int j, int k) const { return box_.offset(i, j, k); }
+  std::ptrdiff_t stride(int axis) const { return box_.stride(axis); }
+
+  Eigen::Vector3d position(const std::array<int, 3>& index) const {
+    return {box_.coordinate(0, index[0]), box_.coordinate(1, index[1]), box_.coordinate(2, index[2])};
   }
-  std::ptrdiff_t offset(int i, int j, int k) const {
-    return (std::ptrdiff_t{k - first_[2]} * extent_[1] + (j - first_[1])) * extent_[0] + (i - first_[0]);
+  /// Where a point with that index is in the arrays of the grid.
+  int in_grid(int axis, int index) const {
+    return in_grid_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index - box_.first[axis])];
   }
-  std::ptrdiff_t stride(int axis) const {
-    return axis == 0 ? 1 : axis == 1 ? extent_[0] : std::ptrdiff_t{extent_[0]} * extent_[1];
-  }
+
   /// Signed distance, or `far` beyond the band.
   static constexpr double far = 1e300;
   double distance(std::ptrdiff_t at) const { return distance_[static_cast<std::size_t>(at)]; }
-  double jump(std::ptrdiff_t at) const { return jump_[static_cast<std::size_t>(at)]; }
   bool is_inside(std::ptrdiff_t at) const { return distance(at) < 0.0; }
+  /// Zero beyond the band.
+  double jump(std::ptrdiff_t at) const { return jump_[static_cast<std::size_t>(at)]; }
+  /// What takes the value at a point, which is that of its side, to the mean of both sides: half the jump inside, less
+  /// half of it outside.
+  double to_mean(std::ptrdiff_t at) const { return to_mean_[static_cast<std::size_t>(at)]; }
+  /// The same, as a pointer into the box.
+  const double* to_mean(int i, int j, int k) const { return to_mean_.data() + offset(i, j, k); }
 
-  /// Points of the band.
-  std::size_t count() const { return feet_.size(); }
+  /// Points along each axis that a reader reads.
+  static constexpr int read_points = 4;
+  /// Where a reader reads along an axis: the points from the first on, the second of them `fraction` below it.
+  struct Reading {
+    int first;
+    double fraction;
+  };
+  Reading reading(int axis, double position) const {
+    const double at = box_.index_at(axis, position), below = std::floor(at);
+    return {static_cast<int>(below) - 1, at - below};
+  }
 
  private:
-  void frame(const FineSurface& surface, double width);
-  void find_nearest_nodes(const FineSurface& surface, double width);
+  void frame(const FineSurface& surface, double width, const vesicle::VectorField* readers);
+  void list_candidates(double reach, const vesicle::VectorField* readers);
+  bool is_candidate(std::ptrdiff_t at) const { return nearest_.key(at) < limits_[static_cast<std::size_t>(at)]; }
+  void mark_read(const vesicle::VectorField& readers, int first_plane, int end_plane);
   void project(const FineSurface& surface, double width);
 
-  fluid::Grid grid_;
-  fluid::Centring centring_;
-  fluid::Vector3 origin_;  // of the point (0, 0, 0)
-  fluid::Vector3 spacing_;
-  std::array<int, 3> first_{}, extent_{};
-  std::vector<double> distance_, jump_;
-  std::vector<float> nearest_;  // squared distance of the nearest node
-  std::vector<int> node_;       // and its number, or -1
-  struct FootOfPoint {
-    std::size_t point;
-    double distance;
-    FineSurface::Place place;
-  };
-  std::vector<FootOfPoint> feet_;
+  std::array<int, 3> period_;  // in points, or 0
+  GridBox box_;
+  std::array<std::vector<int>, 3> in_grid_;
+  NearestNodes nearest_;
+  std::vector<double> distance_, jump_, to_mean_;
+  std::vector<NearestNodes::Key> limits_;  // of the keys of candidates
+  std::vector<int> first_of_plane_;        // among the points
+  std::vector<Point> points_;
 };
 
 }  // namespace vesiflow::coupling

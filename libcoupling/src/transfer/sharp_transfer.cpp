@@ -6,17 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transfer/shares.h"
+
 namespace vesiflow::coupling {
 namespace {
 
 /// Nodes of the mesh that jumps are looked up on, in spacings of the grid.
 constexpr double node_distance = 0.9;
-/// The corner of a stencil of 4 x 4 x 4 points, in spacings.
-const double reading_width = 2.0 * std::sqrt(3.0) + 0.01;
+/// More than rounding, in spacings.
+constexpr double slack = 1e-9;
 constexpr int pressure_band = 3;
 
 /// Records of FineSurface: [u_i], [u_i]_n, [u_i]_nn, [u_i]_nnn of the components, and those of p.
-std::vector<int> slots(bool velocity_jump) {
+std::vector<int> make_slots(bool velocity_jump) {
   using vesicle::JumpColumns;
   std::vector<int> slot(
       static_cast<std::size_t>(velocity_jump ? JumpColumns::with_velocity_jump : JumpColumns::without_velocity_jump));
@@ -33,36 +35,42 @@ std::vector<int> slots(bool velocity_jump) {
   return slot;
 }
 
+const std::vector<int>& slots(bool velocity_jump) {
+  static const std::vector<int> without = make_slots(false), with = make_slots(true);
+  return velocity_jump ? with : without;
+}
+
 /// Of Lagrange's polynomials for the nodes -1, 0, 1, 2, at 0 <= x < 1.
-std::array<double, 4> lagrange(double x) {
-  return {-x * (x - 1.0) * (x - 2.0) / 6.0, (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0, -(x + 1.0) * x * (x - 2.0) / 2.0,
-          (x + 1.0) * x * (x - 1.0) / 6.0};
+Eigen::Array4d lagrange(double x) {
+  const double before = x + 1.0, after = x - 1.0, last = x - 2.0;
+  constexpr double sixth = 1.0 / 6.0;
+  return {-sixth * x * (after * last), 0.5 * before * (after * last), -0.5 * before * (x * last),
+          sixth * before * (x * after)};
 }
 
 }  // namespace
 
 SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters)
     : grid_(grid),
-      parameters_(parameters),
       smoothing_(parameters.smoothing * grid.min_spacing()),
+      spacing_(std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)})),
       jumps_(markers, {.degrees = parameters.degrees, .jump_degrees = markers.latitudes(), .cut = {}}),
       fine_(4) {
+  for (int axis = 0; axis < 3; ++axis) per_spacing_[axis] = 1.0 / grid.spacing(axis);
   for (const fluid::Centring centring : fluid::face_centrings) bands_.emplace_back(grid, centring);
   bands_.emplace_back(grid, fluid::Centring::cell);
 }
 
 void SharpTransfer::update(const vesicle::Surface& surface) {
-  double h = 0.0;
-  for (int axis = 0; axis < 3; ++axis) h = std::max(h, grid_.spacing(axis));
   jumps_.update(surface);
   fine_.update(surface, node_distance * grid_.min_spacing());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int c = 0; c < 4; ++c) {
-    const double width = c == pressure_band ? smoothing_ + h + 0.01 * h : reading_width * h;
-    bands_[static_cast<std::size_t>(c)].update(fine_, width);
-  }
   positions_ = surface.positions();
   area_weight_ = surface.area_weight();
+  // f is at faces within reach, whose differences take in the next faces and the cells on both sides; r is at cells
+  // within reach at most, and takes in the faces on both sides.
+  const double reach = force_reach();
+  for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, reach + (1.0 + slack) * spacing_, &positions_);
+  bands_[pressure_band].update(fine_, reach + (0.5 + slack) * spacing_);
 }
 
 void SharpTransfer::set_force(const vesicle::VectorField& force, const vesicle::VectorField* velocity_jump) {
@@ -71,7 +79,6 @@ void SharpTransfer::set_force(const vesicle::VectorField& force, const vesicle::
   else
     jumps_.compute(force);
   fine_.set(jumps_.coefficients(), slots(velocity_jump != nullptr));
-#pragma omp parallel for schedule(dynamic, 1)
   for (int c = 0; c < 4; ++c) bands_[static_cast<std::size_t>(c)].evaluate(fine_, FineSurface::jumps + c);
   force_ = force;
 }
@@ -82,92 +89,89 @@ double SharpTransfer::blend(double d) const {
   return x * x * x * (10.0 + x * (-15.0 + 6.0 * x));
 }
 
-int SharpTransfer::wrapped(int index, int axis) const {
-  if (!grid_.periodic[static_cast<std::size_t>(axis)]) return index;
-  const int cells = grid_.cells[static_cast<std::size_t>(axis)];
-  return ((index % cells) + cells) % cells;
+// Beyond, theta is chi at a point and at all that its differences take in.
+double SharpTransfer::force_reach() const { return std::max(smoothing_, spacing_) + slack * spacing_; }
+double SharpTransfer::source_reach() const { return std::max(smoothing_, 0.5 * spacing_) + slack * spacing_; }
+
+// (chi - theta) D.
+double SharpTransfer::corrected(const GridBand& band, std::ptrdiff_t at, double theta) {
+  return band.to_mean(at) + (0.5 - theta) * band.jump(at);
 }
 
 // M(chi D) - theta M(D) at a point: every arm of the stencil takes (chi - theta) D at its end.
-double SharpTransfer::momentum_at(int component, int i, int j, int k, std::ptrdiff_t at, double theta) const {
+double SharpTransfer::momentum_at(int component, const GridBand::Point& point) const {
   const GridBand& u = bands_[static_cast<std::size_t>(component)];
   const GridBand& p = bands_[pressure_band];
-  const auto part = [theta](const GridBand& band, std::ptrdiff_t place) {
-    return ((band.is_inside(place) ? 1.0 : 0.0) - theta) * band.jump(place);
-  };
-  const double here = part(u, at);
+  const double theta = blend(point.distance());
+  const double twice_here = 2.0 * corrected(u, point.at, theta);
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double h = grid_.spacing(axis);
-    sum += (part(u, at + u.stride(axis)) + part(u, at - u.stride(axis)) - 2.0 * here) / (h * h);
+    const std::ptrdiff_t next = u.stride(axis);
+    const double ends = corrected(u, point.at + next, theta) + corrected(u, point.at - next, theta);
+    sum += (ends - twice_here) * per_spacing_[axis] * per_spacing_[axis];
   }
   // A face lies between the cell below it, of the index before, and the one of its own.
-  const std::ptrdiff_t above = p.offset(i, j, k);
-  return sum - (part(p, above) - part(p, above - p.stride(component))) / grid_.spacing(component);
+  const std::ptrdiff_t above = p.offset(point.index[0], point.index[1], point.index[2]);
+  const std::ptrdiff_t below = above - p.stride(component);
+  return sum - (corrected(p, above, theta) - corrected(p, below, theta)) * per_spacing_[component];
 }
 
-void SharpTransfer::add_component(int component, fluid::View density, Moments& moments) const {
+// -div(chi D) + theta div(D) at a point.
+double SharpTransfer::source_at(const GridBand::Point& point) const {
+  const double theta = blend(point.distance());
+  double sum = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const GridBand& u = bands_[static_cast<std::size_t>(axis)];
+    const std::ptrdiff_t below = u.offset(point.index[0], point.index[1], point.index[2]);
+    sum -= (corrected(u, below + u.stride(axis), theta) - corrected(u, below, theta)) * per_spacing_[axis];
+  }
+  return sum;
+}
+
+template <class Add>
+void SharpTransfer::for_points_within(double reach, const GridBand& band, const Add& add) {
+  for (const GridBand::Point& point : band.points())
+    if (std::abs(point.distance()) <= reach)
+      add(point, std::array<int, 3>{band.in_grid(0, point.index[0]), band.in_grid(1, point.index[1]),
+                                    band.in_grid(2, point.index[2])});
+}
+
+void SharpTransfer::add_component(int component, const fluid::View& density, Moments& moments) const {
   const GridBand& band = bands_[static_cast<std::size_t>(component)];
+  double force = 0.0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  for_points_within(force_reach(), band, [&](const GridBand::Point& point, const std::array<int, 3>& in_grid) {
+    const double f = momentum_at(component, point);
+    density(in_grid[0], in_grid[1], in_grid[2]) += f;
+    force += f;
+    at += f * band.position(point.index);
+  });
   const double volume = grid_.cell_volume();
-  const double h = grid_.min_spacing();
-  const double reach =
-      std::max(smoothing_, std::max({grid_.spacing(0), grid_.spacing(1), grid_.spacing(2)})) + 1e-9 * h;
-  const auto& first = band.first();
-  const auto& n = band.extent();
-  for (int c = 0; c < n[2]; ++c)
-    for (int b = 0; b < n[1]; ++b)
-      for (int a = 0; a < n[0]; ++a) {
-        const int i = first[0] + a, j = first[1] + b, k = first[2] + c;
-        const std::ptrdiff_t at = band.offset(i, j, k);
-        const double d = band.distance(at);
-        if (!(std::abs(d) <= reach)) continue;
-        const double f = momentum_at(component, i, j, k, at, blend(d));
-        density(wrapped(i, 0), wrapped(j, 1), wrapped(k, 2)) += f;
-        const fluid::Vector3 x =
-            fluid::point_position(grid_, fluid::face_centrings[static_cast<std::size_t>(component)], i, j, k);
-        Eigen::Vector3d force = Eigen::Vector3d::Zero();
-        force[component] = f * volume;
-        moments.force += force;
-        moments.torque += Eigen::Vector3d(x[0], x[1], x[2]).cross(force);
-      }
+  moments.force[component] = volume * force;
+  moments.torque = volume * at.cross(Eigen::Vector3d::Unit(component));
 }
 
-void SharpTransfer::add_source(fluid::View source) const {
-  const GridBand& p = bands_[pressure_band];
-  const double reach =
-      std::max(smoothing_, 0.5 * std::max({grid_.spacing(0), grid_.spacing(1), grid_.spacing(2)})) * (1.0 + 1e-9);
-  const auto& first = p.first();
-  const auto& n = p.extent();
-  for (int c = 0; c < n[2]; ++c)
-    for (int b = 0; b < n[1]; ++b)
-      for (int a = 0; a < n[0]; ++a) {
-        const int i = first[0] + a, j = first[1] + b, k = first[2] + c;
-        const double d = p.distance(p.offset(i, j, k));
-        if (!(std::abs(d) <= reach)) continue;
-        const double theta = blend(d);
-        double sum = 0.0;
-        for (int axis = 0; axis < 3; ++axis) {
-          const GridBand& u = bands_[static_cast<std::size_t>(axis)];
-          const auto part = [&](std::ptrdiff_t place) {
-            return ((u.is_inside(place) ? 1.0 : 0.0) - theta) * u.jump(place);
-          };
-          const std::ptrdiff_t below = u.offset(i, j, k);
-          sum -= (part(below + u.stride(axis)) - part(below)) / grid_.spacing(axis);
-        }
-        source(wrapped(i, 0), wrapped(j, 1), wrapped(k, 2)) += sum;
-      }
+void SharpTransfer::add_source(const fluid::View& source) const {
+  for_points_within(source_reach(), bands_[pressure_band],
+                    [&](const GridBand::Point& point, const std::array<int, 3>& in_grid) {
+                      source(in_grid[0], in_grid[1], in_grid[2]) += source_at(point);
+                    });
 }
 
 void SharpTransfer::add_to(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source, MarkerTransfer& delta) {
   std::array<Moments, 3> moments;
   const auto views = density.points();
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int c = 0; c < 4; ++c)
-    if (c == pressure_band)
-      add_source(source.points());
-    else
-      add_component(c, views[static_cast<std::size_t>(c)], moments[static_cast<std::size_t>(c)]);
-  for (std::size_t c = 0; c < 4; ++c) touched_[c].push_back({bands_[c].first(), bands_[c].extent()});
+  in_shares(4, [&](Eigen::Index begin, Eigen::Index end) {
+    for (auto c = static_cast<int>(begin); c < static_cast<int>(end); ++c)
+      if (c == pressure_band)
+        add_source(source.points());
+      else
+        add_component(c, views[static_cast<std::size_t>(c)], moments[static_cast<std::size_t>(c)]);
+  });
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Box box{bands_[c].first(), bands_[c].extent()};
+    if (std::ranges::find(touched_[c], box) == touched_[c].end()) touched_[c].push_back(box);
+  }
   Moments put;
   for (const Moments& m : moments) {
     put.force += m.force;
@@ -208,53 +212,72 @@ void SharpTransfer::spread_rest(const Moments& put, MarkerTransfer& delta, fluid
 void SharpTransfer::clear(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source) {
   const auto faces = density.points();
   for (std::size_t c = 0; c < 4; ++c) {
-    const fluid::View& view = c == pressure_band ? source.points() : faces[c];
-    for (const Box& box : touched_[c])
-      for (int k = box.first[2]; k < box.first[2] + box.extent[2]; ++k)
-        for (int j = box.first[1]; j < box.first[1] + box.extent[1]; ++j)
-          for (int i = box.first[0]; i < box.first[0] + box.extent[0]; ++i) {
-            const std::array<int, 3> index{wrapped(i, 0), wrapped(j, 1), wrapped(k, 2)};
-            bool is_there = true;
-            for (std::size_t axis = 0; axis < 3; ++axis)
-              is_there = is_there && index[axis] >= 0 && index[axis] < view.extent[axis];
-            if (is_there) view(index[0], index[1], index[2]) = 0.0;
-          }
+    for (const Box& box : touched_[c]) clear_box(box, c == pressure_band ? source.points() : faces[c]);
     touched_[c].clear();
   }
 }
 
+void SharpTransfer::clear_box(const Box& box, const fluid::View& view) const {
+  // Two ranges of an axis: the second is what goes on at the other end.
+  std::array<std::array<std::array<int, 2>, 2>, 3> ranges;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int first = box.first[axis], end = first + box.extent[axis], cells = grid_.cells[axis];
+    if (!grid_.periodic[axis]) {
+      ranges[axis] = {{{std::max(first, 0), std::min(end, view.extent[axis])}, {0, 0}}};
+    } else {
+      const int begin = ((first % cells) + cells) % cells, count = std::min(end - first, cells);
+      ranges[axis] = {{{begin, std::min(begin + count, cells)}, {0, std::max(0, begin + count - cells)}}};
+    }
+  }
+  for (const auto& [k_begin, k_end] : ranges[2])
+    for (int k = k_begin; k < k_end; ++k)
+      for (const auto& [j_begin, j_end] : ranges[1])
+        for (int j = j_begin; j < j_end; ++j)
+          for (const auto& [i_begin, i_end] : ranges[0])
+            if (i_begin < i_end) std::fill(view.row(j, k) + i_begin, view.row(j, k) + i_end, 0.0);
+}
+
 void SharpTransfer::interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const {
   const auto views = velocity.points();
-#pragma omp parallel for schedule(static)
-  for (Eigen::Index m = 0; m < positions_.rows(); ++m)
-    for (int component = 0; component < 3; ++component) {
-      const GridBand& band = bands_[static_cast<std::size_t>(component)];
-      const fluid::ConstView& u = views[static_cast<std::size_t>(component)];
-      const fluid::Vector3 origin =
-          fluid::point_position(grid_, fluid::face_centrings[static_cast<std::size_t>(component)], 0, 0, 0);
-      std::array<int, 3> first;
-      std::array<std::array<double, 4>, 3> weight;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double at =
-            (positions_(m, static_cast<Eigen::Index>(axis)) - origin[axis]) / grid_.spacing(static_cast<int>(axis));
-        const double below = std::floor(at);
-        first[axis] = static_cast<int>(below) - 1;
-        weight[axis] = lagrange(at - below);
-      }
-      double sum = 0.0;
-      for (int c = 0; c < 4; ++c)
-        for (int b = 0; b < 4; ++b) {
-          const double w = weight[2][static_cast<std::size_t>(c)] * weight[1][static_cast<std::size_t>(b)];
-          for (int a = 0; a < 4; ++a) {
-            const int i = first[0] + a, j = first[1] + b, k = first[2] + c;
-            const std::ptrdiff_t at = band.offset(i, j, k);
-            const double half = 0.5 * band.jump(at);
-            sum += w * weight[0][static_cast<std::size_t>(a)] *
-                   (u(wrapped(i, 0), wrapped(j, 1), wrapped(k, 2)) + (band.is_inside(at) ? half : -half));
-          }
-        }
-      marker_velocity(m, component) = sum;
+  in_shares(positions_.rows(), [&](Eigen::Index begin, Eigen::Index end) {
+    for (std::size_t c = 0; c < 3; ++c)
+      for (Eigen::Index m = begin; m < end; ++m)
+        marker_velocity(m, static_cast<Eigen::Index>(c)) = mean_of_sides(bands_[c], views[c], m);
+  });
+}
+
+double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView& u, Eigen::Index marker) const {
+  using Four = Eigen::Array4d;
+  constexpr int width = GridBand::read_points;
+  static_assert(width == Four::SizeAtCompileTime);
+  std::array<int, 3> first;
+  std::array<Four, 3> weight;
+  for (int axis = 0; axis < 3; ++axis) {
+    const GridBand::Reading reading = band.reading(axis, positions_(marker, axis));
+    first[axis] = reading.first;
+    weight[axis] = lagrange(reading.fraction);
+  }
+  std::array<std::ptrdiff_t, width> columns, rows, planes;
+  for (int a = 0; a < width; ++a) {
+    columns[a] = band.in_grid(0, first[0] + a);
+    rows[a] = band.in_grid(1, first[1] + a) * u.row_stride;
+    planes[a] = band.in_grid(2, first[2] + a) * u.plane_stride;
+  }
+  const bool is_whole = columns[width - 1] - columns[0] == width - 1;
+  const double* to_mean = band.to_mean(first[0], first[1], first[2]);
+  Four sum = Four::Zero();
+  for (int c = 0; c < width; ++c)
+    for (int b = 0; b < width; ++b) {
+      const double* row = u.data + planes[c] + rows[b];
+      Four value;
+      if (is_whole)
+        value = Eigen::Map<const Four>(row + columns[0]);
+      else
+        for (int a = 0; a < width; ++a) value[a] = row[columns[a]];
+      value += Eigen::Map<const Four>(to_mean + c * band.stride(2) + b * band.stride(1));
+      sum += weight[2][c] * weight[1][b] * value;
     }
+  return (sum * weight[0]).sum();
 }
 
 }  // namespace vesiflow::coupling

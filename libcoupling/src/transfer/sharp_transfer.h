@@ -62,25 +62,35 @@ class SharpTransfer {
   struct Moments {
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
   };
+  struct Box {
+    std::array<int, 3> first, extent;
+    friend bool operator==(const Box&, const Box&) = default;
+  };
+
   double blend(double distance) const;
-  double momentum_at(int component, int i, int j, int k, std::ptrdiff_t at, double theta) const;
-  void add_component(int component, fluid::View density, Moments& moments) const;
-  void add_source(fluid::View source) const;
-  int wrapped(int index, int axis) const;
+  double force_reach() const;
+  double source_reach() const;
+  static double corrected(const GridBand& band, std::ptrdiff_t at, double theta);
+  double momentum_at(int component, const GridBand::Point& point) const;
+  double source_at(const GridBand::Point& point) const;
+  template <class Add>
+  static void for_points_within(double reach, const GridBand& band, const Add& add);
+  void add_component(int component, const fluid::View& density, Moments& moments) const;
+  void add_source(const fluid::View& source) const;
   void spread_rest(const Moments& put, MarkerTransfer& delta, fluid::FaceVector& density);
+  void clear_box(const Box& box, const fluid::View& view) const;
+  double mean_of_sides(const GridBand& band, const fluid::ConstView& velocity, Eigen::Index marker) const;
 
   fluid::Grid grid_;
-  Parameters parameters_;
   double smoothing_;  // width
+  double spacing_;    // the largest
+  std::array<double, 3> per_spacing_;
   vesicle::MembraneJumps jumps_;
   FineSurface fine_;
   std::vector<GridBand> bands_;  // of the components, then of the pressure
   vesicle::VectorField positions_, force_, rest_;
   vesicle::ScalarField area_weight_;
   double lacking_force_ = 0.0;
-  struct Box {
-    std::array<int, 3> first, extent;
-  };
   std::array<std::vector<Box>, 4> touched_;
 };
 

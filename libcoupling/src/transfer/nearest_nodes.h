@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "transfer/fine_surface.h"
+#include "transfer/grid_box.h"
+
+namespace vesiflow::coupling {
+
+/// The nearest node of a surface's mesh to each point of a box that is near the surface.
+class NearestNodes {
+ public:
+  /// Fewest points in a row of a box.
+  static constexpr int smallest_row = 8;
+
+  /// Looks for the nodes of all points within `reach` of one; of points beyond it may find one or not. Rows of nodes
+  /// that are closer than they need be are thinned. Nothing allocates but for a larger box.
+  void search(const FineSurface& surface, const GridBox& box, double reach);
+
+  /// Of a point at some offset in the box: squared distance of its nearest node and that node, to compare with limits.
+  using Key = std::uint32_t;
+  Key key(std::ptrdiff_t at) const { return keys_[static_cast<std::size_t>(at)]; }
+  /// Keys below it are those of points with a node within a distance up to the reach.
+  Key limit(double distance) const;
+  /// Keys below it are those of points that have a node.
+  static constexpr Key limit() { return std::numeric_limits<Key>::max(); }
+
+  /// The node nearest to the point at that offset in the box, which has one.
+  FineSurface::Node node(std::ptrdiff_t at) const {
+    const auto number = static_cast<int>(key(at) & ((1U << node_bits_) - 1U));
+    return {number / longitudes_, number % longitudes_};
+  }
+
+ private:
+  void search_planes(const FineSurface& surface, const GridBox& box, int first, int last);
+
+  // Squared distance in the upper bits, in units of 1 / scale_, and node in the lower: so the nearest is the smallest,
+  // and of two at the same distance the one of the lower number, in whatever order they come.
+  std::vector<Key> keys_;
+  int node_bits_ = 1;
+  int longitudes_ = 1;
+  double reach_ = 0.0, scale_ = 0.0;
+};
+
+}  // namespace vesiflow::coupling
