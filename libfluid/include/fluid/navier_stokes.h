@@ -116,7 +116,12 @@ struct FluidReport {
 /// With inertia = none a step solves `-div(mu (grad u + grad u^T)) + grad p = f`, div u = 0 with the force given and
 /// the walls at the new time (StokesSolver, from the extrapolated velocity and the last pressure).
 ///
-/// Second order in space and, for u, in time. div u = 0, or what divergence_source() says, to round-off. Same bits for every number of threads.
+/// Where a program states a divergence, div u = r (divergence_source()), r takes its place in all of this: Lap phi = a
+/// (div u* - r), and p^{k+1} = p^k + phi - mu (div u* - r). N is (u.grad)u + r u / 2 then. The viscous term of a number
+/// mu is mu Lap u; the stress has mu grad r beside it, which a pressure that is higher by mu r would balance.
+///
+/// Second order in space and, for u, in time. div u = 0, or what was stated, to round-off. Same bits for every number of
+/// threads.
 class VESIFLOW_FLUID_EXPORT NavierStokes {
  public:
   /// At rest inside, moving as told on the walls (if there are any), at time zero. The velocity solver is made, or
@@ -168,11 +173,12 @@ class VESIFLOW_FLUID_EXPORT NavierStokes {
   /// The same, to read.
   const Vector3& uniform_force() const;
 
-  /// What div u is at the end of the coming steps, at the cells; zero where it has never been asked for, and at first.
-  /// Kept by step(), which takes its mean off it, as no flow has one. Sharp membranes state their jumps by it
-  /// (docs/jump_conditions.md). The first call allocates the field.
+  /// What div u is at the end of the coming steps, at the cells, but for the mean, which no flow has; zero where it has
+  /// never been asked for, and at first. It is kept, not changed, by step(), and no part of a state. Sharp membranes
+  /// state their jumps by it (docs/jump_conditions.md). The first call allocates two fields.
   Field<Cell>& divergence_source();
-  /// The same, to read, or nullptr where it has never been asked for.
+  /// What div u is now, to round-off: the source of the last step without its mean, or, where no step has led to the
+  /// state, what the velocity has. Null, for zero, where divergence_source() has never been asked for.
   const Field<Cell>* given_divergence() const;
 
   /// Advances by dt. Allocates nothing as long as dt and the number of threads stay the same (see EllipticSolver for

@@ -78,9 +78,10 @@ class VESIFLOW_FLUID_EXPORT StokesSolver {
   /// \param p holds the initial guess and takes the solution; its ghosts are not set.
   /// \param uniform_force force density that is added to `force` everywhere.
   /// \param source what div u is, in the place of zero, at the cells; its mean, which no flow can have, must be that of
-  /// the walls' flux: zero. Null for none.
+  /// the walls' flux: zero. Null for none. The viscous term of a number mu is mu Lap u then; that of a field has
+  /// mu grad source beside it, and so a pressure that is higher by mu times the source.
   /// \throws std::invalid_argument if a grid differs.
-  /// \throws std::runtime_error if the force or the guess is not finite.
+  /// \throws std::runtime_error if the force, the guess or the source is not finite.
   StokesReport solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u, Field<Cell>& p,
                      const Vector3& uniform_force = {}, const Field<Cell>* source = nullptr);
 

@@ -40,6 +40,7 @@ void NavierStokes::forget() {
 void NavierStokes::solve_again() {
   stepper_->solve_again();
 }
+
 void NavierStokes::retry() {
   stepper_->retry();
 }
@@ -55,11 +56,14 @@ const FaceVector& NavierStokes::force() const {
   return stepper_->force;
 }
 Field<Cell>& NavierStokes::divergence_source() {
-  if (!stepper_->source) stepper_->source.emplace(stepper_->grid);
+  if (!stepper_->source) {
+    stepper_->source.emplace(stepper_->grid);
+    stepper_->given_divergence.emplace(stepper_->grid);
+  }
   return *stepper_->source;
 }
 const Field<Cell>* NavierStokes::given_divergence() const {
-  return stepper_->source ? &*stepper_->source : nullptr;
+  return stepper_->given_divergence ? &*stepper_->given_divergence : nullptr;
 }
 Vector3& NavierStokes::uniform_force() {
   return stepper_->uniform_force;

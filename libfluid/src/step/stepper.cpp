@@ -154,6 +154,12 @@ void Stepper::start() {
   walls.set_normal_faces(velocity);
   walls.fill_ghosts(velocity);
   copy(velocity, previous);
+  believe_divergence();
+}
+
+// Of a velocity that no step has led to.
+void Stepper::believe_divergence() {
+  if (given_divergence) divergence(velocity, *given_divergence);
 }
 
 void Stepper::make_divergence_free() {
@@ -242,6 +248,7 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
   walls.evaluate(clock.time);
   walls.set_normal_faces(velocity);
   walls.fill_ghosts(velocity);
+  believe_divergence();
 }
 
 // From the previous velocity, walls and ghosts included.
@@ -276,6 +283,7 @@ void Stepper::retry() {
   clock = remembered_->clock;
   recompute_convection();
   walls.evaluate(clock.time);
+  believe_divergence();
 }
 
 // Others may have moved other fields into these.
@@ -283,7 +291,8 @@ void Stepper::check_given() {
   check_grid("fluid", "the force", force, grid);
   if (!source) return;
   check_grid("fluid", "the source of the divergence", *source, grid);
-  remove_mean(*source);
+  copy(*source, *given_divergence);
+  remove_mean(*given_divergence);
 }
 
 void Stepper::solve_again() {
@@ -340,7 +349,8 @@ void Stepper::extrapolate_and_solve_stokes(double dt) {
 
 void Stepper::solve_stokes(FaceVector& solution) {
   const PhaseTimer timer(timings.momentum);
-  report.stokes = stokes_->solve(force, walls, solution, pressure, uniform_force, source ? &*source : nullptr);
+  report.stokes = stokes_->solve(force, walls, solution, pressure, uniform_force,
+                                 given_divergence ? &*given_divergence : nullptr);
   if (!report.stokes.converged) {
     throw std::runtime_error(message("the Stokes solver stopped after ", report.stokes.iterations,
                                      " iterations at a relative residual of ", report.stokes.residual));
@@ -406,7 +416,7 @@ void Stepper::project(double a) {
   const PhaseTimer timer(timings.projection);
   walls.set_normal_faces(previous);
   divergence(previous, chi_);
-  if (source) add(-1.0, std::as_const(*source).unknowns(), chi_.unknowns());
+  if (given_divergence) add(-1.0, std::as_const(*given_divergence).unknowns(), chi_.unknowns());
   report.pressure = pressure_solver->solve(std::as_const(chi_).unknowns(), chi_.unknowns());
   check_converged("pressure", report.pressure);
   if (implicit_stress()) {

@@ -39,7 +39,8 @@ class Stepper {
   WallVelocity walls;
   FaceVector velocity, previous, force;
   Vector3 uniform_force{};
-  std::optional<Field<Cell>> source;  // what div u is, where a program has asked for it
+  std::optional<Field<Cell>> source;            // of the divergence, where a program has asked for it
+  std::optional<Field<Cell>> given_divergence;  // and what div u is by it: without the mean
   Field<Cell> pressure;
   FluidClock clock;
   FluidTimings timings;
@@ -63,6 +64,7 @@ class Stepper {
   void extrapolate_and_solve_stokes(double dt);
   void solve_stokes(FaceVector& solution);
   void check_given();
+  void believe_divergence();
   void start();
   void make_divergence_free();
   void recompute_convection();

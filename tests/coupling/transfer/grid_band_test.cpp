@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "transfer/grid_band.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "support/allocation_counter.h"
+#include "transfer/ellipsoid.h"
+#include "vesicle/point_evaluation.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+using test::Ellipsoid;
+using fluid::Centring;
+using Vector = Eigen::Vector3d;
+
+constexpr Centring all_centrings[] = {Centring::face_x, Centring::face_y, Centring::face_z, Centring::cell};
+
+const fluid::Grid box({-2, -2.2, -2}, {2, 2.2, 2}, {20, 24, 22}, {.periodic = {true, true, true}});
+constexpr double spacing = 0.18;  // of nodes: 0.9 times the smallest of the grid's
+
+vesicle::Surface surface_of(const Ellipsoid& body) {
+  vesicle::Surface surface(32);
+  surface.update(body.markers(surface.grid()));
+  return surface;
+}
+
+FineSurface fine_surface_of(const Ellipsoid& body, int records = 1) {
+  FineSurface fine(records);
+  fine.update(surface_of(body), spacing);
+  return fine;
+}
+
+Vector position(const fluid::Grid& grid, Centring centring, int i, int j, int k) {
+  const fluid::Vector3 x = fluid::point_position(grid, centring, i, j, k);
+  return {x[0], x[1], x[2]};
+}
+
+/// Compares each point of the grid, and its images in the boxes around, with the exact distance; returns the largest error.
+/// Points are missed or too many only where the exact distance is that of the width to 1e-5.
+double compare(const GridBand& band, const fluid::Grid& grid, Centring centring, const Ellipsoid& body, double width) {
+  double error = 0.0;
+  std::size_t found = 0;
+  const auto& n = grid.cells;
+  for (int k = -n[2]; k < 2 * n[2]; ++k)
+    for (int j = -n[1]; j < 2 * n[1]; ++j)
+      for (int i = -n[0]; i < 2 * n[0]; ++i) {
+        const double exact = body.closest(position(grid, centring, i, j, k)).distance;
+        const bool is_there = band.contains(i, j, k) && band.distance(band.offset(i, j, k)) != GridBand::far;
+        found += is_there ? 1 : 0;
+        if (std::abs(exact) < width - 1e-5) {
+          EXPECT_TRUE(is_there) << i << ' ' << j << ' ' << k << ' ' << exact;
+        }
+        if (!is_there) continue;
+        const std::ptrdiff_t at = band.offset(i, j, k);
+        EXPECT_LT(std::abs(exact), width + 1e-5);
+        EXPECT_EQ(band.is_inside(at), exact < 0.0) << exact;
+        error = std::max(error, std::abs(band.distance(at) - exact));
+      }
+  EXPECT_EQ(found, band.count());
+  return error;
+}
+
+double largest_error(const Ellipsoid& body, double width) {
+  const FineSurface fine = fine_surface_of(body);
+  double error = 0.0;
+  for (const Centring centring : all_centrings) {
+    GridBand band(box, centring);
+    band.update(fine, width);
+    error = std::max(error, compare(band, box, centring, body, width));
+  }
+  return error;
+}
+
+TEST(GridBand, KnowsTheDistanceFromASphere) {
+  const double e = largest_error({{1, 1, 1}, {0.1, -0.2, 0.05}}, 0.7);
+  std::printf("sphere %g\n", e);
+  EXPECT_LT(e, 1e-6);
+}
+
+TEST(GridBand, KnowsTheDistanceFromAnEllipsoid) {
+  const double e = largest_error({{0.8, 1.0, 1.3}, {0.1, -0.2, 0.05}}, 0.45);
+  std::printf("ellipsoid %g\n", e);
+  EXPECT_LT(e, 1e-6);
+}
+
+// Wider than the least radius of curvature, 0.28 at the tips, so that closest points are not unique; next to the mean plane of
+// the body, where they change sides, and at a disc.
+TEST(GridBand, KnowsTheDistanceFromSlimBodies) {
+  const Ellipsoid needle({0.72, 0.72, 1.85}, {0.1, -0.2, 0.05}), disc({0.5, 1.4, 1.5}, {0.1, -0.2, 0.05});
+  ASSERT_LT(needle.least_radius(), 0.3);
+  ASSERT_LT(disc.least_radius(), 0.2);
+  double e = largest_error(needle, 0.7);
+  std::printf("needle %g\n", e);
+  EXPECT_LT(e, 1e-4);
+  e = largest_error(disc, 0.7);
+  std::printf("disc %g\n", e);
+  EXPECT_LT(e, 1e-4);
+}
+
+// Across ends, an edge and a corner of the box, and some boxes off: indices run on.
+TEST(GridBand, ABodyMayLieAcrossPeriodicEnds) {
+  const Vector middle(0.1, -0.2, 0.05), axes(0.8, 1.0, 1.3);
+  const FineSurface fine = fine_surface_of({axes, middle});
+  struct Shift {
+    int i, j, k;
+  };
+  for (const Shift& shift : {Shift{10, 0, 0}, Shift{-9, 12, 0}, Shift{10, -12, 11}, Shift{47, 3, -50}}) {
+    const Vector moved = middle + Vector(shift.i * box.spacing(0), shift.j * box.spacing(1), shift.k * box.spacing(2));
+    const FineSurface fine_moved = fine_surface_of({axes, moved});
+    for (const Centring centring : all_centrings) {
+      GridBand here(box, centring), there(box, centring);
+      here.update(fine, 0.45);
+      there.update(fine_moved, 0.45);
+      EXPECT_EQ(here.count(), there.count());
+      const auto& first = here.first();
+      for (int k = first[2]; k < first[2] + here.extent()[2]; ++k)
+        for (int j = first[1]; j < first[1] + here.extent()[1]; ++j)
+          for (int i = first[0]; i < first[0] + here.extent()[0]; ++i) {
+            const double d = here.distance(here.offset(i, j, k));
+            if (d == GridBand::far) continue;
+            ASSERT_TRUE(there.contains(i + shift.i, j + shift.j, k + shift.k));
+            // Points midway between two nodes may start from the other one.
+            EXPECT_NEAR(there.distance(there.offset(i + shift.i, j + shift.j, k + shift.k)), d, 1e-6);
+          }
+    }
+  }
+}
+
+// g + d g_n + d^2/2 g_nn + d^3/6 g_nnn with the fields at the closest point.
+TEST(GridBand, ContinuesJumpsAlongTheNormal) {
+  constexpr int degrees = 4;
+  const Ellipsoid body({0.8, 1.0, 1.3}, {0.1, -0.2, 0.05});
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  vesicle::Coefficients fields(degrees, 4);
+  for (int f = 0; f < 4; ++f)
+    for (int n = 0; n < degrees; ++n)
+      for (int m = 0; m <= n; ++m) fields(f, n, m) = {uniform(generator), m > 0 ? uniform(generator) : 0.0};
+  FineSurface fine = fine_surface_of(body, 3);
+  fine.set(fields, {4, 5, 6, 7});  // the second record of three
+  const vesicle::PointEvaluation evaluation(degrees);
+  vesicle::VectorField direction(1, 3);
+  Eigen::ArrayXXd g(1, 4);
+  for (const Centring centring : all_centrings) {
+    GridBand band(box, centring), of_nothing(box, centring);
+    band.update(fine, 0.45);
+    band.evaluate(fine, FineSurface::jumps + 1);
+    of_nothing.update(fine, 0.45);
+    of_nothing.evaluate(fine, FineSurface::jumps + 2);
+    double error = 0.0, most = 0.0;
+    const auto& first = band.first();
+    for (int k = first[2]; k < first[2] + band.extent()[2]; ++k)
+      for (int j = first[1]; j < first[1] + band.extent()[1]; ++j)
+        for (int i = first[0]; i < first[0] + band.extent()[0]; ++i) {
+          const std::ptrdiff_t at = band.offset(i, j, k);
+          EXPECT_EQ(of_nothing.jump(at), 0.0);
+          if (band.distance(at) == GridBand::far) {
+            EXPECT_EQ(band.jump(at), 0.0);
+            continue;
+          }
+          const Ellipsoid::Closest foot = body.closest(position(box, centring, i, j, k));
+          direction.row(0) = foot.direction.transpose().array();
+          evaluation.values_at(fields, direction, g);
+          const double d = foot.distance;
+          const double exact = g(0, 0) + d * g(0, 1) + d * d / 2 * g(0, 2) + d * d * d / 6 * g(0, 3);
+          most = std::max(most, std::abs(exact));
+          error = std::max(error, std::abs(band.jump(at) - exact));
+        }
+    std::printf("jump err %g of %g\n", error, most);
+    EXPECT_LT(error, 1e-4);
+    EXPECT_GT(most, 0.5);
+  }
+}
+
+// As a body moves through the grid the number of points changes a little.
+TEST(GridBand, AllocatesNothingWhereABodyMoves) {
+  if (!vesiflow::test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
+  GridBand band(box, Centring::face_y);
+  FineSurface fine(1);
+  std::vector<vesicle::Surface> path;
+  for (int step = 0; step < 12; ++step)
+    path.push_back(surface_of({{0.8, 1.0, 1.3}, {0.1 + 0.03 * step, -0.2 - 0.02 * step, 0.05 + 0.01 * step}}));
+  fine.update(path[0], spacing);
+  band.update(fine, 0.45);
+  const long before = vesiflow::test::allocation_count();
+  for (const vesicle::Surface& surface : path) {
+    fine.update(surface, spacing);
+    band.update(fine, 0.45);
+    band.evaluate(fine, FineSurface::jumps);
+  }
+  EXPECT_EQ(vesiflow::test::allocation_count() - before, 0);
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling
