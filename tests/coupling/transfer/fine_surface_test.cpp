@@ -61,7 +61,7 @@ std::vector<Direction> directions_at_the_seam() {
   return all;
 }
 
-/// Largest error of all that is held of the surface at these points.
+/// Largest error of position and normal at these points.
 double error_at(const FineSurface& fine, const Ellipsoid& body, const std::vector<Direction>& directions) {
   double error = 0.0;
   for (const Direction& s : directions) {
@@ -72,11 +72,6 @@ double error_at(const FineSurface& fine, const Ellipsoid& body, const std::vecto
     };
     compare(value(FineSurface::position), body.point(s));
     compare(value(FineSurface::normal), body.normal(s));
-    for (int i = 0; i < 3; ++i)
-      compare(value(FineSurface::direction + i), body.direction_gradient(s).row(i).transpose());
-    const Eigen::Matrix3d shape = body.shape(s);
-    compare(value(FineSurface::shape), shape.diagonal());
-    compare(value(FineSurface::shape_mixed), {shape(0, 1), shape(1, 2), shape(2, 0)});
   }
   return error;
 }
@@ -90,7 +85,6 @@ TEST(FineSurface, HoldsAnEllipsoidToTheOrderOfSixPoints) {
   const double finer = std::log(static_cast<double>(fine.latitudes()) / coarse.latitudes());
   for (const auto& directions : {random_directions(400), directions_at_poles(), directions_at_the_seam()}) {
     const double first = error_at(coarse, body, directions), second = error_at(fine, body, directions);
-    std::printf("%d %d %g %g order %g\n", coarse.latitudes(), fine.latitudes(), first, second, std::log(first/second)/finer);
     EXPECT_LT(second, 1e-4);
     EXPECT_NEAR(std::log(first / second) / finer, 6.0, 0.5);
   }
@@ -103,9 +97,27 @@ TEST(FineSurface, ReproducesItsNodes) {
   fine.update(surface, 0.2);
   for (int j = 0; j < fine.latitudes(); ++j)
     for (int i = 0; i < fine.longitudes(); ++i) {
-      const FineSurface::Place place = fine.place_of(fine.direction_of_node(i, j));
+      const FineSurface::Place place = fine.place_of(fine.mesh().direction_of({j, i}));
       for (int record = 0; record < FineSurface::jumps; ++record)
         EXPECT_LT((fine.value(place, record) - fine.at_node(i, j, record)).abs().maxCoeff(), 1e-11) << i << ' ' << j;
+    }
+}
+
+// What says how far it is from one point to another: of single precision, and as exact as the surface's own.
+TEST(FineSurface, HasItsSlopes) {
+  const Ellipsoid body = some_ellipsoid();
+  const vesicle::Surface surface = surface_of(body, 40);
+  FineSurface fine(1);
+  fine.update(surface, 0.1);
+  for (int j = 0; j < fine.latitudes(); ++j)
+    for (int i = 0; i < fine.longitudes(); i += 5) {
+      const Direction s = fine.mesh().direction_of({j, i});
+      const auto slopes = fine.at(FineSurface::Node{j, i}).slopes;
+      const Eigen::Matrix3d gradient = body.direction_gradient(s), shape = body.shape(s);
+      const double exact[15] = {gradient(0, 0), gradient(0, 1), gradient(0, 2), gradient(1, 0), gradient(1, 1),
+                                gradient(1, 2), gradient(2, 0), gradient(2, 1), gradient(2, 2), shape(0, 0),
+                                shape(1, 1),    shape(2, 2),    shape(0, 1),    shape(1, 2),    shape(2, 0)};
+      for (int k = 0; k < 15; ++k) EXPECT_NEAR(slopes[k], exact[k], 1e-5) << j << ' ' << i << ' ' << k;
     }
 }
 
@@ -171,7 +183,6 @@ TEST(FineSurface, HoldsFieldsOfTheCaller) {
       errors[step] = std::max(errors[step], (found - wanted).abs().maxCoeff());
     }
   }
-    std::printf("fields %g %g order %g\n", errors[0], errors[1], std::log(errors[0] / errors[1]) / std::log(static_cast<double>(latitudes[1]) / latitudes[0]));
   EXPECT_LT(errors[1], 1e-4);
   EXPECT_NEAR(std::log(errors[0] / errors[1]) / std::log(static_cast<double>(latitudes[1]) / latitudes[0]), 6.0, 0.5);
 }
