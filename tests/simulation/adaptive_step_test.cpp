@@ -143,8 +143,8 @@ TEST(AdaptiveStep, RefusedStepsOfShapeFollowingLeaveNoTrace) {
        {std::array{"vesicles.0.viscosity_ratio=1", "coupling.method=delta", "fluid.inertia=full"},
         std::array{"vesicles.0.viscosity_ratio=5", "coupling.method=delta", "fluid.inertia=full"},
         std::array{"vesicles.0.viscosity_ratio=5", "coupling.method=sharp", "fluid.inertia=none"}}) {
-    const Scene scene = three_vesicles(following_with(
-        {"time.step=1/96", "time.tolerance=1e-6", "time.largest_step=0.08", ratio, method, inertia}));
+    const Scene scene = three_vesicles(
+        following_with({"time.step=1/96", "time.tolerance=1e-6", "time.largest_step=0.08", ratio, method, inertia}));
     SceneSimulation tried(scene), direct(scene);
     for (int k = 0; k < 5; ++k) tried.step();
     for (int k = 0; k < 3; ++k) {

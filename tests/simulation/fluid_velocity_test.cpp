@@ -135,8 +135,8 @@ TEST(FluidVelocity, HasNoMeanInAPeriodicBox) {
 
 // Two vesicles, each by its own ratio, one of them across the end of a box that repeats.
 TEST(FluidVelocity, TakesEachMembraneByItsOwnRatio) {
-  Scene scene = small_scene(sharp({"domain.upper=[6, 3, 3]", "domain.cells=[30, 20, 20]",
-                                   "domain.periodic=[true, true, false]"}));
+  Scene scene = small_scene(
+      sharp({"domain.upper=[6, 3, 3]", "domain.cells=[30, 20, 20]", "domain.periodic=[true, true, false]"}));
   scene.vesicles[0].viscosity_ratio = 4.0;
   scene.vesicles[0].centre = {-2.8, 0.1, 0.2};
   scene.vesicles.push_back(scene.vesicles[0]);

@@ -228,16 +228,16 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::map<int, vesicle::MeshRedistribution> redistributions_;  // by latitudes; none if none are wanted
   std::vector<Redistribution> last_redistributions_;
   Phases phases_;
-  std::unique_ptr<ImplicitStep> implicit_step_;   // of time.markers = "implicit"
-  std::unique_ptr<StepControl> step_control_;     // of adaptive steps
-  std::unique_ptr<StartControl> start_control_;   // of equal steps that start in parts where they must
-  std::vector<VesicleState> remembered_;          // before the step that is tried
-  std::vector<vesicle::ScalarField> curvatures_;  // the same, in a start
-  bool corrects_fluid_ = false;                   // after each step, for what implicit terms have done
+  std::unique_ptr<ImplicitStep> implicit_step_;          // of time.markers = "implicit"
+  std::unique_ptr<StepControl> step_control_;            // of adaptive steps
+  std::unique_ptr<StartControl> start_control_;          // of equal steps that start in parts where they must
+  std::vector<VesicleState> remembered_;                 // before the step that is tried
+  std::vector<vesicle::ScalarField> curvatures_;         // the same, in a start
+  bool corrects_fluid_ = false;                          // after each step, for what implicit terms have done
   std::unique_ptr<PhysicalVelocity> physical_velocity_;  // where it is not that of the fluid
   fluid::Vector3 mean_flow_{};                           // which the fluid's velocity lacks, of the last solve
   int interface_passes_ = 0;                             // of the last step
-  long extra_steps_ = 0;                          // of the fluid, by parts of steps
+  long extra_steps_ = 0;                                 // of the fluid, by parts of steps
   long rejected_steps_ = 0;
   long last_step_ = 0;
   std::unique_ptr<BlowUpGuard> guard_;

@@ -22,8 +22,8 @@ namespace {
 
 void require_state_of(const SimulationParameters& parameters, const SimulationState& state) {
   if (state.vesicles.size() != parameters.vesicles.size())
-    throw std::invalid_argument(fmt::format("the state has {} vesicles, the parameters {}", state.vesicles.size(),
-                                            parameters.vesicles.size()));
+    throw std::invalid_argument(
+        fmt::format("the state has {} vesicles, the parameters {}", state.vesicles.size(), parameters.vesicles.size()));
   for (std::size_t i = 0; i < state.vesicles.size(); ++i) {
     if (parameters.viscosity_ratio(i) == 1.0) continue;
     const Eigen::Index latitudes = parameters.latitudes(i), markers = 2 * latitudes * latitudes;
@@ -87,8 +87,7 @@ fluid::FaceVector fluid_velocity_of(const SimulationParameters& parameters, cons
     for (Interface& interface : interfaces) {
       const vesicle::Vector3 displaced = interface.displaced();
       for (int axis = 0; axis < 3; ++axis)
-        mean[static_cast<std::size_t>(axis)] -=
-            displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
+        mean[static_cast<std::size_t>(axis)] -= displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
     }
   PhysicalVelocity velocity(grid);
   velocity.set(state.velocity, mean);

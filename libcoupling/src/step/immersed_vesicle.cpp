@@ -187,9 +187,8 @@ void ImmersedVesicle::carry_interface_velocity(const vesicle::MeshRedistribution
 void ImmersedVesicle::restore_interface_velocity(const vesicle::VectorField& velocity) {
   const Eigen::Index expected = two_phase ? membrane.positions().rows() : 0;
   if (velocity.rows() != expected || !velocity.isFinite().all())
-    throw std::invalid_argument(
-        fmt::format("the velocity of the interface has {} markers, expected {}, and must be finite", velocity.rows(),
-                    expected));
+    throw std::invalid_argument(fmt::format(
+        "the velocity of the interface has {} markers, expected {}, and must be finite", velocity.rows(), expected));
   if (two_phase) two_phase->set(velocity);
 }
 

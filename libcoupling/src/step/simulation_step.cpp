@@ -193,8 +193,7 @@ fluid::Vector3 Simulation::mean_flow() const {
     if (!v->two_phase) continue;
     const vesicle::Vector3 displaced = v->two_phase->displaced(v->membrane.surface());
     for (int axis = 0; axis < 3; ++axis)
-      mean[static_cast<std::size_t>(axis)] -=
-          displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
+      mean[static_cast<std::size_t>(axis)] -= displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
   }
   return mean;
 }

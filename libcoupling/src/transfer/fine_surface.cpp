@@ -48,8 +48,8 @@ void FineSurface::tabulate_surface() {
     const std::ptrdiff_t place = mesh_->in_table(j, i);
     const auto row = [node](const auto& field) { return Eigen::Vector3d(field.row(node).transpose()); };
     const Eigen::Vector3d n = row(g.normal());
-    Eigen::Map<Eigen::Vector3d>{form_.data() + form_size * place} = row(values_);
-    Eigen::Map<Eigen::Vector3d>{form_.data() + form_size * place + 4} = n;
+    Eigen::Map<Eigen::Vector3d>{form_.data() + form_size* place} = row(values_);
+    Eigen::Map<Eigen::Vector3d>{form_.data() + form_size* place + 4} = n;
 
     const Eigen::Vector3f dual_theta = row(g.dual_theta()).cast<float>(), dual_phi = row(g.dual_phi()).cast<float>();
     const auto [s_theta, s_phi] = mesh_->tangents_at({j, i});

@@ -119,8 +119,7 @@ void GridBand::mark_read(const vesicle::VectorField& readers, int first_plane, i
     for (int axis = 0; axis < 3; ++axis) from[axis] = reading(axis, readers(m, axis)).first - box_.first[axis];
     for (int c = std::max(from[2], first_plane); c < std::min(from[2] + read_points, end_plane); ++c)
       for (int b = from[1]; b < from[1] + read_points; ++b)
-        std::fill_n(limits_.begin() + c * box_.stride(2) + b * box_.stride(1) + from[0], read_points,
-                    nearest_.limit());
+        std::fill_n(limits_.begin() + c * box_.stride(2) + b * box_.stride(1) + from[0], read_points, nearest_.limit());
   }
 }
 
@@ -133,8 +132,7 @@ void GridBand::project(const FineSurface& surface, double width) {
     for (Eigen::Index begin = share_begin; begin < share_end; begin += most) {
       const auto count = static_cast<std::size_t>(std::min(most, share_end - begin));
       const std::span<Point> points(points_.data() + begin, count);
-      for (std::size_t i = 0; i < count; ++i)
-        queries[i] = {position(points[i].index), nearest_.node(points[i].at)};
+      for (std::size_t i = 0; i < count; ++i) queries[i] = {position(points[i].index), nearest_.node(points[i].at)};
       find_feet(surface, {queries.data(), count}, close, {feet.data(), count});
       for (std::size_t i = 0; i < count; ++i) {
         const auto at = static_cast<std::size_t>(points[i].at);

@@ -28,9 +28,9 @@ class ParameterMesh {
 
   /// A point between nodes.
   struct Place {
-    int row;                    ///< the one above it, -1 .. latitudes() - 1
-    int column;                 ///< the one west of it
-    double below, east;         ///< how far it is from there, in rows (of their mean distance) and columns
+    int row;             ///< the one above it, -1 .. latitudes() - 1
+    int column;          ///< the one west of it
+    double below, east;  ///< how far it is from there, in rows (of their mean distance) and columns
   };
 
   /// The weights of the nodes of six rows and of six columns, and two zeros.
@@ -78,7 +78,8 @@ class ParameterMesh {
 
   /// The place of a direction, which need not be of unit length.
   Place place_of(const Direction& s) const {
-    return place_at(std::atan2(std::sqrt(s[0] * s[0] + s[1] * s[1]), s[2]), columns_per_angle_ * std::atan2(s[1], s[0]));
+    return place_at(std::atan2(std::sqrt(s[0] * s[0] + s[1] * s[1]), s[2]),
+                    columns_per_angle_ * std::atan2(s[1], s[0]));
   }
   /// The place with this colatitude and longitude, seen from a node; together not beyond a pole, less than a whole turn.
   Place place_at(Node node, double theta, double phi) const {

@@ -90,8 +90,12 @@ double SharpTransfer::blend(double d) const {
 }
 
 // Beyond, theta is chi at a point and at all that its differences take in.
-double SharpTransfer::force_reach() const { return std::max(smoothing_, spacing_) + slack * spacing_; }
-double SharpTransfer::source_reach() const { return std::max(smoothing_, 0.5 * spacing_) + slack * spacing_; }
+double SharpTransfer::force_reach() const {
+  return std::max(smoothing_, spacing_) + slack * spacing_;
+}
+double SharpTransfer::source_reach() const {
+  return std::max(smoothing_, 0.5 * spacing_) + slack * spacing_;
+}
 
 // (chi - theta) D.
 double SharpTransfer::corrected(const GridBand& band, std::ptrdiff_t at, double theta) {

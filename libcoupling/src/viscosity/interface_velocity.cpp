@@ -22,8 +22,7 @@ vesicle::Vector3 InterfaceVelocity::displaced(const vesicle::Surface& surface) {
   const vesicle::ScalarField flux = (jump() * surface.normal()).rowwise().sum() * surface.area_weight();
   const vesicle::Vector3 centre = surface.integral(surface.positions()) / surface.area();
   vesicle::Vector3 moment;
-  for (int axis = 0; axis < 3; ++axis)
-    moment[axis] = ((surface.positions().col(axis) - centre[axis]) * flux).sum();
+  for (int axis = 0; axis < 3; ++axis) moment[axis] = ((surface.positions().col(axis) - centre[axis]) * flux).sum();
   return moment;
 }
 

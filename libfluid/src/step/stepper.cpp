@@ -349,8 +349,8 @@ void Stepper::extrapolate_and_solve_stokes(double dt) {
 
 void Stepper::solve_stokes(FaceVector& solution) {
   const PhaseTimer timer(timings.momentum);
-  report.stokes = stokes_->solve(force, walls, solution, pressure, uniform_force,
-                                 given_divergence ? &*given_divergence : nullptr);
+  report.stokes =
+      stokes_->solve(force, walls, solution, pressure, uniform_force, given_divergence ? &*given_divergence : nullptr);
   if (!report.stokes.converged) {
     throw std::runtime_error(message("the Stokes solver stopped after ", report.stokes.iterations,
                                      " iterations at a relative residual of ", report.stokes.residual));

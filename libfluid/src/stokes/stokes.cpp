@@ -99,8 +99,7 @@ void StokesSolver::System::update(const Viscosity& mu) {
 
 // r_u = f - A u - grad p and r_p = div u - source, of a velocity with its walls and ghosts set. Returns the means that f loses.
 std::array<double, 3> StokesSolver::System::set_residual(const FaceVector& force, const Vector3& uniform_force,
-                                                         const FaceVector& u, ConstView p,
-                                                         const Field<Cell>* source) {
+                                                         const FaceVector& u, ConstView p, const Field<Cell>* source) {
   copy(p, correction_.p());
   solver_->viscous_operator().apply_to_points(u.points(), residual_.u());
   add_gradient(grid, correction_.pressure, residual_.u());
@@ -127,8 +126,7 @@ void StokesSolver::System::remove_divergence(const WallVelocity& walls, const Fi
 }
 
 StokesReport StokesSolver::System::solve(const FaceVector& force, const WallVelocity& walls, FaceVector& u,
-                                         Field<Cell>& p, const Vector3& uniform_force,
-                                         const Field<Cell>* source) {
+                                         Field<Cell>& p, const Vector3& uniform_force, const Field<Cell>* source) {
   const auto start = std::chrono::steady_clock::now();
   check_grid("stokes", "the force", force, grid);
   check_grid("stokes", "the velocity", u, grid);

@@ -114,7 +114,8 @@ class CostModel {
     const double solves = fluid_solves(scene_);
     for (PhaseCost& cost : costs_) {
       if (cost.phase == "spread") cost.seconds *= ns::sharp_spread_factor * solves;
-      if (cost.phase == "interpolate") cost.seconds *= ns::sharp_interpolate_factor * (scene_.corrects_fluid() ? 1.0 : solves);
+      if (cost.phase == "interpolate")
+        cost.seconds *= ns::sharp_interpolate_factor * (scene_.corrects_fluid() ? 1.0 : solves);
       if (cost.phase.starts_with("fluid_")) cost.seconds *= solves;
       cost.rough = cost.rough || cost.phase == "spread" || cost.phase == "interpolate";
     }

@@ -31,9 +31,9 @@ struct RunRecord {
   std::optional<std::string> stop_reason;
   std::vector<Retry> retries;
   RunQuality quality;
-  long steps_taken = 0;      ///< by this process
-  long interface_passes = 0; ///< solves in these steps, see coupling::Simulation::interface_passes()
-  fluid::PhaseAccount wall;  ///< of these steps, output included
+  long steps_taken = 0;       ///< by this process
+  long interface_passes = 0;  ///< solves in these steps, see coupling::Simulation::interface_passes()
+  fluid::PhaseAccount wall;   ///< of these steps, output included
   fluid::PhaseAccount output_table, output_vesicle, output_fluid, output_checkpoint;
 };
 

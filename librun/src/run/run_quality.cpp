@@ -135,9 +135,9 @@ RunQuality::SceneNumbers RunQuality::scene_numbers() const {
   const double longest = scene_.time.adaptive ? scene_.time.largest_step : scene_.time.step;
   std::optional<double> grid_error;
   if (scene_.coupling.method == coupling::CouplingMethod::delta)
-    grid_error = (scene_.coupling.thickness_correction ? validity::corrected_error_per_spacing
-                                                       : validity::error_per_spacing) *
-                 scene_.spacing() / smallest_radius;
+    grid_error =
+        (scene_.coupling.thickness_correction ? validity::corrected_error_per_spacing : validity::error_per_spacing) *
+        scene_.spacing() / smallest_radius;
   return {.tension_number = scene_.tension_number(),
           .stable_tension_number = scene_.stable_tension_number(),
           .convection_step_ratio = longest / stable_convection_step(scene_),

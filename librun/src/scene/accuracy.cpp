@@ -102,10 +102,10 @@ void check_accuracy(const Scene& scene) {
                     "knows nothing of the layer in which the viscosity changes; leave it out, and compare two grids",
                     key));
   if (scene.coupling.method != coupling::CouplingMethod::delta)
-    throw ParameterError(
-        fmt::format("{}: no settings are known for coupling.method = \"sharp\"; take \"delta\", or leave method.accuracy "
-                    "out and compare two grids",
-                    key));
+    throw ParameterError(fmt::format(
+        "{}: no settings are known for coupling.method = \"sharp\"; take \"delta\", or leave method.accuracy "
+        "out and compare two grids",
+        key));
   const double radius = coupling::largest_radius(scene);
   if (coupling::vesicle_reynolds_number(scene) > largest_reynolds_number)
     throw ParameterError(

@@ -36,9 +36,7 @@ class Ellipsoid {
   /// [i][j] = d(s_i)/d(x_j) along the surface.
   Matrix direction_gradient(const Vector& s) const { return inverse_ * projector(s); }
   /// grad_s n.
-  Matrix shape(const Vector& s) const {
-    return projector(s) * form_ * projector(s) / (form_ * map_ * s).norm();
-  }
+  Matrix shape(const Vector& s) const { return projector(s) * form_ * projector(s) / (form_ * map_ * s).norm(); }
   /// Least radius of curvature.
   double least_radius() const {
     const Vector a = axes_.singularValues();  // in descending order

@@ -189,7 +189,8 @@ TEST(FineSurface, HoldsFieldsOfTheCaller) {
 
 TEST(FineSurface, AllocatesNothingOnAMeshThatFits) {
   if (!vesiflow::test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
-  const vesicle::Surface surface = surface_of(some_ellipsoid(), 16), moved = surface_of({{0.8, 1.0, 1.3}, {0, 0, 0}}, 16);
+  const vesicle::Surface surface = surface_of(some_ellipsoid(), 16),
+                         moved = surface_of({{0.8, 1.0, 1.3}, {0, 0, 0}}, 16);
   vesicle::Coefficients fields(8, 4);
   fields.set_zero();
   const std::vector<int> slots{0, 1, 2, 3};

@@ -16,8 +16,8 @@
 namespace vesiflow::coupling {
 namespace {
 
-using test::Ellipsoid;
 using fluid::Centring;
+using test::Ellipsoid;
 using Vector = Eigen::Vector3d;
 
 constexpr Centring all_centrings[] = {Centring::face_x, Centring::face_y, Centring::face_z, Centring::cell};

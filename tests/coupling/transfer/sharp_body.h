@@ -4,6 +4,7 @@
 // A sharp membrane in a fluid without inertia, and exact flows around and inside a sphere, for the tests of SharpTransfer.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -137,9 +138,7 @@ class SphereFlow {
  private:
   using LambTerm = vesicle::testing::LambTerm;
 
-  static Vector axis(int i) {
-    return Eigen::AngleAxisd(0.7, Vector(1, 2, 3).normalized()).toRotationMatrix().col(i);
-  }
+  static Vector axis(int i) { return Eigen::AngleAxisd(0.7, Vector(1, 2, 3).normalized()).toRotationMatrix().col(i); }
   LambTerm term(double pressure, double potential) const {
     return {axis(0), axis(1), degree_, false, pressure, potential, 0.0};
   }
@@ -153,7 +152,8 @@ class SphereFlow {
   vesicle::VectorField at_markers(const vesicle::Surface& sphere, const Function& function) const {
     vesicle::VectorField result(sphere.positions().rows(), 3);
     for (Eigen::Index m = 0; m < result.rows(); ++m)
-      result.row(m) = function((Vector(sphere.positions().row(m).transpose()) - centre_).normalized()).transpose().array();
+      result.row(m) =
+          function((Vector(sphere.positions().row(m).transpose()) - centre_).normalized()).transpose().array();
     return result;
   }
 

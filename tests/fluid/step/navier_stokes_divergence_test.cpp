@@ -145,7 +145,7 @@ TEST(NavierStokesDivergence, AManufacturedFlowIsOfSecondOrderInSpace) {
       const test::FlowErrors coarse = errors(ends, inertia, reynolds_number, 16);
       const test::FlowErrors fine = errors(ends, inertia, reynolds_number, 24);
       std::printf("order %g %g  %g %g\n", test::slope(coarse.velocity_l2, 16, fine.velocity_l2, 24),
-         test::slope(coarse.pressure_l2, 16, fine.pressure_l2, 24), fine.velocity_l2, fine.pressure_l2);
+                  test::slope(coarse.pressure_l2, 16, fine.pressure_l2, 24), fine.velocity_l2, fine.pressure_l2);
       EXPECT_NEAR(test::slope(coarse.velocity_l2, 16, fine.velocity_l2, 24), 2.0, 0.15) << reynolds_number;
       EXPECT_GT(test::slope(coarse.pressure_l2, 16, fine.pressure_l2, 24), 1.5) << reynolds_number;
     }
@@ -204,7 +204,7 @@ TEST(NavierStokesDivergence, IsOfSecondOrderInTime) {
     };
     const State coarse = run_from_rest(ends, 64), middle = run_from_rest(ends, 128), fine = run_from_rest(ends, 256);
     const auto first = difference(coarse, middle), second = difference(middle, fine);
-      std::printf("time order %g %g\n", std::log2(first.first / second.first), std::log2(first.second / second.second));
+    std::printf("time order %g %g\n", std::log2(first.first / second.first), std::log2(first.second / second.second));
     EXPECT_NEAR(std::log2(first.first / second.first), 2.0, 0.1);
     EXPECT_GT(std::log2(first.second / second.second), 1.5);
   }
@@ -222,7 +222,8 @@ TEST(NavierStokesDivergence, TheSteadyPressureDoesNotDependOnTheStep) {
       parameters.stokes.tolerance = 1e-11;
       NavierStokes fluid(grid, parameters, walls);
       test::sample_faces(fluid.force(), [&](const Vector3& r) { return flow.stokes_force(r, 0.2); });
-      fluid.divergence_source() = test::sample_pressure(grid, [&](const Vector3& r) { return flow.divergence(r, 0.2); });
+      fluid.divergence_source() =
+          test::sample_pressure(grid, [&](const Vector3& r) { return flow.divergence(r, 0.2); });
       for (int k = 0; k < steps; ++k) fluid.step(dt);
       return State{fluid.velocity().clone(), fluid.pressure().clone()};
     };
@@ -342,7 +343,8 @@ TEST(SolveAgain, GivesTheSolutionOfTheForceAndTheSourceAsTheyAreNow) {
       parameters.inertia = Inertia::none;
       parameters.stokes.tolerance = 1e-11;
       if (is_field)
-        parameters.viscosity = sample_viscosity(unequal(ends), [](const Vector3& r) { return 2.0 + std::sin(3 * r[0]); });
+        parameters.viscosity =
+            sample_viscosity(unequal(ends), [](const Vector3& r) { return 2.0 + std::sin(3 * r[0]); });
       NavierStokes once(unequal(ends), parameters, stirring, WallMotion::unsteady);
       NavierStokes again(unequal(ends), parameters, stirring, WallMotion::unsteady);
       for (NavierStokes* fluid : {&once, &again}) {

@@ -123,8 +123,8 @@ TEST_F(RunFiles, SnapshotsHoldTheVelocityOfTheFluidWhateverItWasSolvedFor) {
 // Only where there are any: else the summary has no number of them.
 TEST_F(RunFiles, SummaryCountsTheSolvesForTheVelocitiesOfInterfaces) {
   const auto said = [&](const char* name, std::initializer_list<std::string> more) {
-    Overrides overrides{"time.markers=shape_following", "domain.cells=16", "time.step=1/24", "time.end=3/24",
-                        "coupling.method=sharp", "fluid.inertia=none"};
+    Overrides overrides{"time.markers=shape_following", "domain.cells=16",   "time.step=1/24", "time.end=3/24",
+                        "coupling.method=sharp",        "fluid.inertia=none"};
     overrides.insert(overrides.end(), more);
     long solves = 0, last = 0;
     SceneSimulation simulation(small_scene(overrides));
