@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Sharp membranes against the delta function: steady tank-treading against the grid, in a box 6 wide.
 
-Walls at z = -3 and 3, periodic along x and y, quasi-static flow, dt = 1/24. The limit of each method is that of the two finest
+Walls at z = -3 and 3, periodic along x and y, quasi-static flow, dt = 1/24, means over the last unit of time: to t = 8, at ratio 5 to t = 12, when
+its angle still falls by 0.05 degrees in a unit of time, as does that of the reduced volume 0.7. The limit of each method is that of the two finest
 grids, second order for the sharp membrane and first order for the delta function; errors are against the sharp one.
 """
 
@@ -11,7 +12,7 @@ from harness.runs import Run
 from harness.tables import table
 
 TITLE = "sharp membranes and the delta function against the grid"
-BODIES = [(0.9, 1), (0.7, 1), (0.9, 5), (0.9, 0.2)]
+BODIES = [(0.9, 1), (0.7, 1), (0.9, 5)]
 METHODS = {"sharp": 2, "delta": 1}
 # Cells along the box, for R/h = 5, 8, 12, 16.
 COARSE, PAPER = [30, 48, 72], [30, 48, 72, 96]
@@ -68,7 +69,7 @@ def compute(context):
 
 
 def draw(context, values, path):
-    figure, panels = drawing.plt.subplots(1, len(BODIES), figsize=(11, 2.8))
+    figure, panels = drawing.plt.subplots(1, len(BODIES), figsize=(9, 2.8))
     n = cells(context)
     for axes, (volume, ratio) in zip(panels, BODIES):
         for method, colour in zip(METHODS, drawing.COLOURS):
