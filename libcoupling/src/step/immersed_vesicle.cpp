@@ -90,7 +90,7 @@ void ImmersedVesicle::FlowAtMarkers::operator()(double fraction, const Positions
     if (vesicle_.two_phase)
       velocity = vesicle_.two_phase->value();
     else
-      vesicle_.sharp->interpolate(*vesicle_.velocity_, velocity);
+      vesicle_.read_sharp(*vesicle_.velocity_, velocity);
     return;
   }
   {
@@ -129,10 +129,14 @@ void ImmersedVesicle::meet_grid() {
   sharp->update(membrane.surface());
 }
 
-double ImmersedVesicle::improve_interface(const fluid::FaceVector& velocity, const fluid::Vector3& mean_flow) {
+void ImmersedVesicle::read_sharp(const fluid::FaceVector& velocity, vesicle::VectorField& at_markers) const {
+  sharp->interpolate(velocity, at_markers);
+  for (int axis = 0; axis < 3; ++axis) at_markers.col(axis) += mean_flow[static_cast<std::size_t>(axis)];
+}
+
+double ImmersedVesicle::improve_interface(const fluid::FaceVector& velocity) {
   mean_velocity_.resize(membrane.positions().rows(), 3);
-  sharp->interpolate(velocity, mean_velocity_);
-  for (int axis = 0; axis < 3; ++axis) mean_velocity_.col(axis) += mean_flow[static_cast<std::size_t>(axis)];
+  read_sharp(velocity, mean_velocity_);
   return two_phase->improve(membrane.surface(), mean_velocity_);
 }
 
@@ -209,7 +213,7 @@ void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) 
     if (two_phase)
       velocities.fluid = two_phase->value();
     else
-      sharp->interpolate(velocity, velocities.fluid);
+      read_sharp(velocity, velocities.fluid);
     motion->mesh_velocity(dt, membrane, velocities);
     return;
   }

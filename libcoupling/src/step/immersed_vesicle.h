@@ -42,7 +42,7 @@ struct ImmersedVesicle {
   void put_force(fluid::NavierStokes& fluid, bool correction = false);
 
   /// The velocity of an interface of two viscosities from the fluid's, see InterfaceVelocity; returns how much it changes.
-  double improve_interface(const fluid::FaceVector& velocity, const fluid::Vector3& mean_flow);
+  double improve_interface(const fluid::FaceVector& velocity);
 
   /// To the end of the step, in the fluid velocities of its two ends. Keeps the accounts in `moving`.
   void advance(double dt, const fluid::FaceVector& previous_velocity, const fluid::FaceVector& velocity);
@@ -78,9 +78,13 @@ struct ImmersedVesicle {
   Phases moving;
   std::int64_t redistributions = 0;
   double area = 0.0, volume = 0.0;  ///< before an adaptive step
-  bool is_current = false;          ///< whether geometry and forces are those of the membrane's state
+  /// Of the whole box, which the velocity of the fluid's solver lacks where some membrane is between two viscosities.
+  fluid::Vector3 mean_flow{};
+  bool is_current = false;  ///< whether geometry and forces are those of the membrane's state
 
  private:
+  void read_sharp(const fluid::FaceVector& velocity, vesicle::VectorField& at_markers) const;
+
   std::optional<ThicknessCorrection> thickness_;
   vesicle::VectorField mean_velocity_;  // of both sides, of an interface of two viscosities
   vesicle::VectorField all_force_;      // with what the motion owes, where the membrane is sharp

@@ -266,9 +266,13 @@ void Simulation::restore(const SimulationState& state) {
     v.redistributions = state.vesicles[i].redistributions;
     v.noise.restart();
     if (fluid_.steps() > 0) v.restore_interface_velocity(state.vesicles[i].interface_velocity);
-    read_velocity(v);
+    if (v.two_phase) v.update();  // the mean flow is of its present shape
   }
   mean_flow_ = mean_flow();
+  for (auto& v : vesicles_) {
+    v->mean_flow = mean_flow_;
+    read_velocity(*v);
+  }
   if (step_control_) step_control_->restore(state.step_control);
   if (start_control_) start_control_->restore(state.step_control);
   plan_last_step();

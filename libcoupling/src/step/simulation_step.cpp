@@ -160,8 +160,10 @@ void Simulation::iterate_interfaces() {
     const PhaseTimer timer(phases_.interpolate);
     mean_flow_ = mean_flow();
     double change = 0.0;
-    for (auto& v : vesicles_)
-      if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity(), mean_flow_));
+    for (auto& v : vesicles_) {
+      v->mean_flow = mean_flow_;
+      if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity()));
+    }
     return change;
   };
   if (std::ranges::none_of(vesicles_, [](const auto& v) { return v->two_phase.has_value(); })) return;

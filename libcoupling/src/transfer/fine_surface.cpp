@@ -84,15 +84,15 @@ void FineSurface::find_strides() {
 }
 
 void FineSurface::set(const vesicle::Coefficients& fields, const std::vector<int>& slots) {
-  values_.resize(nodes(), fields.fields());
+  fields_.resize(nodes(), fields.fields());
   padded_.resample(fields, degrees_);
-  harmonics_->synthesis(padded_, values_);
+  harmonics_->synthesis(padded_, fields_);
   for (int f = 0; f < fields.fields(); ++f) {
     const int slot = slots[static_cast<std::size_t>(f)];
     double* record = jumps_.data() + 4 * mesh_->table_size() * (slot / 4) + slot % 4;
     for (int j = 0; j < latitudes(); ++j) {
       double* to = record + 4 * mesh_->in_table(j, 0);
-      const double* from = &values_(mesh_->grid().index(0, j), f);
+      const double* from = &fields_(mesh_->grid().index(0, j), f);
       for (int i = 0; i < longitudes(); ++i) to[4 * i] = from[i];
     }
   }

@@ -99,7 +99,7 @@ class FineSurface {
   Table<float> slopes_;
   Table<double> jumps_;  // record by record
   vesicle::Coefficients padded_;
-  Eigen::ArrayXXd values_;
+  Eigen::ArrayXXd values_, fields_;  // at the nodes: X, and what set() was given
 };
 
 template <int size>

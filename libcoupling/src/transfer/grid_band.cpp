@@ -69,11 +69,11 @@ void GridBand::frame(const FineSurface& surface, double width, const vesicle::Ve
       in_grid.push_back(period == 0 ? index : ((index % period) + period) % period);
     }
   }
-  distance_.resize(box_.size());
-  jump_.resize(box_.size());
-  to_mean_.resize(box_.size());
-  limits_.resize(box_.size());
-  first_of_plane_.resize(static_cast<std::size_t>(box_.extent[2]) + 1);
+  resize_with_room(distance_, box_.size());
+  resize_with_room(jump_, box_.size());
+  resize_with_room(to_mean_, box_.size());
+  resize_with_room(limits_, box_.size());
+  resize_with_room(first_of_plane_, static_cast<std::size_t>(box_.extent[2]) + 1);
 }
 
 void GridBand::list_candidates(double reach, const vesicle::VectorField* readers) {
@@ -97,8 +97,7 @@ void GridBand::list_candidates(double reach, const vesicle::VectorField* readers
   std::partial_sum(first_of_plane_.begin(), first_of_plane_.end(), first_of_plane_.begin());
   const auto count = static_cast<std::size_t>(first_of_plane_.back());
   // With room to grow, so that a body that moves does not allocate in every other step.
-  if (points_.capacity() < count) points_.reserve(count + count / 8);
-  points_.resize(count);
+  resize_with_room(points_, count);
   in_shares(box_.extent[2], [&](Eigen::Index first, Eigen::Index end) {
     Point* next = points_.data() + first_of_plane_[static_cast<std::size_t>(first)];
     auto at = static_cast<std::int32_t>(first * plane);

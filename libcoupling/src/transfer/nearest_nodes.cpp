@@ -26,7 +26,7 @@ void NearestNodes::search(const FineSurface& surface, const GridBox& box, double
   // The sum of two parts that are at most the square of the reach fits.
   const std::uint32_t most = (std::numeric_limits<std::uint32_t>::max() >> node_bits_) / 2U;
   scale_ = (most - 1U) / (reach * reach);
-  keys_.resize(box.size());
+  resize_with_room(keys_, box.size());
   in_shares(box.extent[2], [&](Eigen::Index begin, Eigen::Index end) {
     const int first = box.first[2] + static_cast<int>(begin), last = box.first[2] + static_cast<int>(end) - 1;
     std::fill(keys_.begin() + begin * box.stride(2), keys_.begin() + end * box.stride(2), limit());

@@ -80,13 +80,11 @@ double largest_error(const Ellipsoid& body, double width) {
 
 TEST(GridBand, KnowsTheDistanceFromASphere) {
   const double e = largest_error({{1, 1, 1}, {0.1, -0.2, 0.05}}, 0.7);
-  std::printf("sphere %g\n", e);
   EXPECT_LT(e, 1e-6);
 }
 
 TEST(GridBand, KnowsTheDistanceFromAnEllipsoid) {
   const double e = largest_error({{0.8, 1.0, 1.3}, {0.1, -0.2, 0.05}}, 0.45);
-  std::printf("ellipsoid %g\n", e);
   EXPECT_LT(e, 1e-6);
 }
 
@@ -97,10 +95,8 @@ TEST(GridBand, KnowsTheDistanceFromSlimBodies) {
   ASSERT_LT(needle.least_radius(), 0.3);
   ASSERT_LT(disc.least_radius(), 0.2);
   double e = largest_error(needle, 0.7);
-  std::printf("needle %g\n", e);
   EXPECT_LT(e, 1e-4);
   e = largest_error(disc, 0.7);
-  std::printf("disc %g\n", e);
   EXPECT_LT(e, 1e-4);
 }
 
@@ -173,7 +169,6 @@ TEST(GridBand, ContinuesJumpsAlongTheNormal) {
           most = std::max(most, std::abs(exact));
           error = std::max(error, std::abs(band.jump(at) - exact));
         }
-    std::printf("jump err %g of %g\n", error, most);
     EXPECT_LT(error, 1e-4);
     EXPECT_GT(most, 0.5);
   }

@@ -54,8 +54,6 @@ TEST(SharpAccuracy, ASphereMovesAsInLambsSolutionToSecondOrder) {
     const SphereFlow flow(mode.degree, mode.traction, 1.0, SphereInBox{}.centre);
     const double coarse = sharp_error({16.0 / 3.0}, flow), middle = sharp_error({8.0}, flow);
     const double fine = sharp_error({32.0 / 3.0}, flow);
-    std::printf("%d %d: %g %g %g order %g\n", static_cast<int>(mode.traction), mode.degree, coarse, middle, fine,
-                std::log2(coarse / fine));
     EXPECT_LT(100.0 * middle, 1.2 * mode.error) << mode.degree;
     EXPECT_GT(std::log2(coarse / fine), 1.8) << mode.degree;
   }
@@ -65,7 +63,6 @@ TEST(SharpAccuracy, IsFarAboveThatOfADeltaFunction) {
   for (const Mode& mode : modes) {
     const SphereFlow flow(mode.degree, mode.traction, 1.0, SphereInBox{}.centre);
     const double d = delta_error({8.0}, flow);
-    std::printf("delta %g\n", d);
     EXPECT_GT(100.0 * d, 10.0 * mode.error) << mode.degree;
   }
 }

@@ -149,7 +149,6 @@ TEST(SharpTransfer, ABodyMayLieAcrossPeriodicEnds) {
                             std::abs(here.density.z(i, j, k) - there.density.z(a, b, c)),
                             std::abs(here.source(i, j, k) - there.source(a, b, c))});
         }
-    std::printf("translation %g vel %g\n", error, (moved - velocity).abs().maxCoeff());
     EXPECT_LT(error, 1e-7);
   }
 }
@@ -172,7 +171,6 @@ TEST(SharpTransfer, TheTotalOfTheSourceVanishesToThirdOrder) {
     return std::sqrt(squares);
   };
   const double coarse = total(4.0), fine = total(8.0);
-  std::printf("source %g %g\n", coarse, fine);
   EXPECT_LT(coarse, 1e-2);
   EXPECT_GT(std::log2(coarse / fine), 2.5);
 }

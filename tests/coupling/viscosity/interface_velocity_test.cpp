@@ -124,7 +124,6 @@ TEST(TwoViscosities, ABodyIsCarriedAlongByAFluidThatMovesAsAWhole) {
     const VectorField exact = at_markers(body.surface, rigid), no_force = VectorField::Zero(exact.rows(), 3);
     InterfaceVelocity interface(ratio, exact.rows());
     const int passes = converge(body, no_force, fluid, interface, 1e-5);
-    std::printf("carried %d %g\n", passes, (interface.value() - exact).abs().maxCoeff());
     EXPECT_EQ(passes, 2);
     EXPECT_LT((interface.value() - exact).abs().maxCoeff(), 1e-5);
   }
@@ -155,8 +154,6 @@ TEST(TwoViscosities, ASphereMovesAsInLambsSolutionToSecondOrder) {
       return test::relative_error(body.surface, interface.value(), flow.velocity(body.surface));
     };
     const double coarse = error(16.0 / 3.0), fine = error(8.0);
-    std::printf("ratio %g %d %d: %g %g order %g\n", mode.ratio, static_cast<int>(mode.traction), mode.degree, coarse,
-                fine, std::log(coarse / fine) / std::log(1.5));
     EXPECT_LT(100.0 * fine, 1.2 * mode.error) << mode.degree << ' ' << mode.ratio;
     EXPECT_GT(std::log(coarse / fine) / std::log(1.5), 1.8) << mode.degree << ' ' << mode.ratio;
   }
@@ -182,7 +179,6 @@ TEST(TwoViscosities, AnInextensibleSphereSinksAsARigidOne) {
     InterfaceVelocity interface(ratio, exact.rows());
     const int passes = converge(body, 1.5 * exact, fluid, interface, 1e-3);
     const double error = test::relative_error(body.surface, interface.value(), exact);
-    std::printf("sinking ratio %g: %d passes %g\n", ratio, passes, error);
     EXPECT_LE(passes, 3) << ratio;
     EXPECT_LT(error, 2e-3) << ratio;
   }

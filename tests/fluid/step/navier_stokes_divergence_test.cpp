@@ -144,8 +144,6 @@ TEST(NavierStokesDivergence, AManufacturedFlowIsOfSecondOrderInSpace) {
          {std::pair(Inertia::full, 1.0), std::pair(Inertia::full, 1e-3), std::pair(Inertia::none, 1.0)}) {
       const test::FlowErrors coarse = errors(ends, inertia, reynolds_number, 16);
       const test::FlowErrors fine = errors(ends, inertia, reynolds_number, 24);
-      std::printf("order %g %g  %g %g\n", test::slope(coarse.velocity_l2, 16, fine.velocity_l2, 24),
-                  test::slope(coarse.pressure_l2, 16, fine.pressure_l2, 24), fine.velocity_l2, fine.pressure_l2);
       EXPECT_NEAR(test::slope(coarse.velocity_l2, 16, fine.velocity_l2, 24), 2.0, 0.15) << reynolds_number;
       EXPECT_GT(test::slope(coarse.pressure_l2, 16, fine.pressure_l2, 24), 1.5) << reynolds_number;
     }
@@ -204,7 +202,6 @@ TEST(NavierStokesDivergence, IsOfSecondOrderInTime) {
     };
     const State coarse = run_from_rest(ends, 64), middle = run_from_rest(ends, 128), fine = run_from_rest(ends, 256);
     const auto first = difference(coarse, middle), second = difference(middle, fine);
-    std::printf("time order %g %g\n", std::log2(first.first / second.first), std::log2(first.second / second.second));
     EXPECT_NEAR(std::log2(first.first / second.first), 2.0, 0.1);
     EXPECT_GT(std::log2(first.second / second.second), 1.5);
   }

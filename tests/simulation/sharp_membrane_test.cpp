@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Simulations with coupling.method = "sharp".
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "coupling/simulation.h"
+#include "support/allocation_counter.h"
+#include "support/small_scene.h"
+
+namespace vesiflow::coupling {
+namespace {
+
+constexpr const char* equal = "fluid.viscosity_ratio=1";
+constexpr const char* five = "fluid.viscosity_ratio=5";
+
+Scene sharp(const Overrides& more = {}) {
+  Overrides overrides{"coupling.method=sharp",     "time.markers=shape_following", "time.step=1/24",
+                      "fluid.inertia=none",        "membrane.sigma0=2000",         "vesicles.0.reduced_volume=0.9",
+                      "vesicles.0.rotation_deg=60"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return small_scene(overrides);
+}
+
+void advance(SceneSimulation& simulation, int steps) {
+  for (int i = 0; i < steps; ++i) simulation.step();
+}
+
+TEST(SharpMembrane, TankTreadsQuietlyAndKeepsAreaAndVolume) {
+  for (const char* ratio : {equal, five}) {
+    SceneSimulation simulation(sharp({ratio, "time.end=1.5"}));
+    while (!simulation.finished()) {
+      simulation.step();
+      const vesicle::Diagnostics d = simulation.measure().at(0);
+      EXPECT_LT(std::abs(d.area_error), 1e-12);
+      EXPECT_LT(std::abs(d.volume_error), 1e-12);
+      EXPECT_LT(simulation.max_divergence(), 1e-11);
+    }
+    const vesicle::Diagnostics d = simulation.measure().at(0);
+    EXPECT_LT(d.surface_divergence_max, 0.05) << ratio;
+    EXPECT_LT(d.max_local_area_error, 5e-3) << ratio;
+    EXPECT_LT(simulation.velocity_noise(0), 0.01 * simulation.membrane_speed(0)) << ratio;
+    EXPECT_EQ(simulation.interface_passes() > 0, ratio == five);
+  }
+}
+
+// Before any step the fluid has not felt the membrane, and what is said of its velocity is the flow.
+TEST(SharpMembrane, BeginsInTheUndisturbedFlow) {
+  for (const char* ratio : {equal, five}) {
+    SceneSimulation simulation(sharp({ratio}));
+    const vesicle::VectorField& x = simulation.membrane(0).positions();
+    const vesicle::VectorField& u = simulation.marker_velocity(0);
+    EXPECT_LT((u.col(0) - x.col(2)).abs().maxCoeff(), 1e-12) << ratio;
+    EXPECT_LT(u.rightCols<2>().abs().maxCoeff(), 1e-12) << ratio;
+  }
+}
+
+void expect_same(SceneSimulation& a, SceneSimulation& b) {
+  const SimulationState x = a.state(), y = b.state();
+  for (std::size_t i = 0; i < x.vesicles.size(); ++i) {
+    EXPECT_TRUE((x.vesicles[i].membrane.positions == y.vesicles[i].membrane.positions).all());
+    EXPECT_TRUE((x.vesicles[i].membrane.target_areas == y.vesicles[i].membrane.target_areas).all());
+    EXPECT_EQ(x.vesicles[i].motion_history, y.vesicles[i].motion_history);
+    ASSERT_EQ(x.vesicles[i].interface_velocity.rows(), y.vesicles[i].interface_velocity.rows());
+    EXPECT_TRUE((x.vesicles[i].interface_velocity == y.vesicles[i].interface_velocity).all());
+  }
+  EXPECT_TRUE(std::equal(x.velocity.x.data(), x.velocity.x.data() + x.velocity.x.size(), y.velocity.x.data()));
+  EXPECT_TRUE(std::equal(x.pressure.data(), x.pressure.data() + x.pressure.size(), y.pressure.data()));
+}
+
+// Also where the start is not over, the markers are redistributed, the box repeats; and handed on once more before any step.
+TEST(SharpMembrane, ARestoredRunGoesOnBitForBit) {
+  for (const Overrides& overrides : {Overrides{equal},
+                                     {five},
+                                     {five, "mesh.max_aspect_ratio=1"},
+                                     {five, "domain.periodic=[true, true, false]"},
+                                     {equal, "fluid.inertia=full"}})
+    for (const int before : {2, 14}) {
+      SceneSimulation whole(sharp(overrides)), restored(sharp(overrides)), again(sharp(overrides));
+      advance(whole, before);
+      restored.restore(whole.state());
+      again.restore(restored.state());
+      EXPECT_LT(restored.max_divergence(), 1e-11);
+      if (overrides[0] == five) {
+        EXPECT_TRUE((restored.marker_velocity(0) == whole.marker_velocity(0)).all());
+      }
+      for (SceneSimulation* s : {&whole, &restored, &again}) advance(*s, 4);
+      expect_same(whole, restored);
+      expect_same(whole, again);
+    }
+}
+
+TEST(SharpMembrane, AStateMustHaveAVelocityOfTheInterfaceThatIsOne) {
+  SceneSimulation simulation(sharp({five}));
+  advance(simulation, 1);
+  const SimulationState state = simulation.state();
+  ASSERT_EQ(state.vesicles[0].interface_velocity.rows(), simulation.membrane(0).positions().rows());
+  const auto spoilt = [&](auto spoil) {
+    SimulationState other = simulation.state();
+    spoil(other.vesicles[0].interface_velocity);
+    return other;
+  };
+  EXPECT_THROW(simulation.restore(spoilt([](auto& u) { u.conservativeResize(u.rows() - 1, 3); })),
+               std::invalid_argument);
+  EXPECT_THROW(simulation.restore(spoilt([](auto& u) { u(3, 1) = INFINITY; })), std::invalid_argument);
+  EXPECT_NO_THROW(simulation.restore(spoilt([](auto& u) { u.resize(0, 3); }))) << "it is found anew";
+  simulation.step();
+  EXPECT_NO_THROW(simulation.restore(state));
+}
+
+TEST(SharpMembrane, GivesTheSameBitsForEveryNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  const auto positions_with = [](int threads) {
+    omp_set_num_threads(threads);
+    SceneSimulation simulation(sharp({five}));
+    advance(simulation, 4);
+    return vesicle::VectorField(simulation.membrane(0).positions());
+  };
+  const vesicle::VectorField one = positions_with(1), three = positions_with(3);
+  omp_set_num_threads(before);
+  EXPECT_TRUE((one == three).all());
+}
+
+TEST(SharpMembrane, WarmedUpStepsAllocateNothing) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
+  const int threads_before = omp_get_max_threads();
+  omp_set_num_threads(2);  // with one the OpenMP library itself allocates a team for every loop
+  for (const char* ratio : {equal, five}) {
+    SceneSimulation simulation(sharp({ratio, "mesh.redistribute=never"}));
+    advance(simulation, 4);
+    const long before = test::allocation_count();
+    advance(simulation, 2);
+    EXPECT_EQ(test::allocation_count() - before, 0) << ratio;
+  }
+  omp_set_num_threads(threads_before);
+}
+
+// A contrast that is hardly there changes hardly anything.
+TEST(SharpMembrane, TwoViscositiesGoOverIntoOne) {
+  const auto positions = [](const char* ratio) {
+    SceneSimulation simulation(sharp({ratio}));
+    advance(simulation, 6);
+    return vesicle::VectorField(simulation.membrane(0).positions());
+  };
+  const vesicle::VectorField one = positions(equal);
+  EXPECT_LT((positions("fluid.viscosity_ratio=1.00001") - one).abs().maxCoeff(), 1e-5);
+  EXPECT_GT((positions("fluid.viscosity_ratio=1.1") - one).abs().maxCoeff(), 1e-4);
+}
+
+// A sphere in a periodic box whose fluid as a whole stands still. Its membrane keeps the area locally, so that it sinks as a rigid
+// one, whatever is inside: with the velocity of Hasimoto (J. Fluid Mech. 5 (1959) 317), 2/9 of the force per volume times
+// 1 - 1.7601 c^(1/3) + c - 1.5593 c^2 for the volume fraction c.
+Scene sinking_sphere(const char* ratio) {
+  Scene scene = small_scene({"coupling.method=sharp", "time.markers=shape_following", "time.step=1/24",
+                             "fluid.inertia=none", "membrane.sigma0=2000", ratio, "flow.type=rest",
+                             "domain.periodic=[true, true, true]", "gravity.acceleration=[0, 0, -1]"});
+  scene.vesicles[0] = VesicleParameters{};
+  scene.vesicles[0].shape = Shape::sphere;
+  scene.vesicles[0].density_difference = 4.5;
+  return scene;
+}
+
+TEST(SharpMembrane, ASphereSinksAsARigidOneInAPeriodicBox) {
+  const double c = 4.0 / 3.0 * std::numbers::pi / 216.0;
+  const double hasimoto = 1.0 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c;
+  for (const char* ratio : {"fluid.viscosity_ratio=1", "fluid.viscosity_ratio=20"}) {
+    SceneSimulation simulation(sinking_sphere(ratio));
+    advance(simulation, 12);
+    const vesicle::Surface& surface = simulation.membrane(0).surface();
+    const vesicle::Vector3 u = surface.integral(simulation.marker_velocity(0)) / surface.area();
+    EXPECT_NEAR(-u[2] / hasimoto, 1.0, 0.01) << ratio;
+    EXPECT_LT(std::hypot(u[0], u[1]), 1e-3) << ratio;
+  }
+}
+
+// What another vesicle feels of it does not depend on its inside either.
+TEST(SharpMembrane, AVesicleBesideOneOfAnotherViscosityFeelsTheSameFlow) {
+  const auto velocity_of_other = [](double ratio) {
+    Scene scene = sinking_sphere(equal);
+    scene.vesicles[0].viscosity_ratio = ratio;
+    scene.vesicles[0].centre = {-1.4, -1.4, 0.0};
+    scene.vesicles.push_back(scene.vesicles[0]);
+    scene.vesicles[1].viscosity_ratio = 1.0;
+    scene.vesicles[1].density_difference = 0.0;
+    scene.vesicles[1].centre = {1.5, 1.5, 0.3};
+    SceneSimulation simulation(scene);
+    advance(simulation, 6);
+    const vesicle::Surface& surface = simulation.membrane(1).surface();
+    return vesicle::Vector3(surface.integral(simulation.marker_velocity(1)) / surface.area());
+  };
+  const vesicle::Vector3 equal_inside = velocity_of_other(1.0), thick_inside = velocity_of_other(5.0);
+  EXPECT_LT((equal_inside - thick_inside).norm(), 5e-3);
+}
+
+TEST(SharpMembrane, IsTakenByImplicitAndByAdaptiveSteps) {
+  for (const Overrides& overrides : {Overrides{equal, "time.markers=implicit"},
+                                     {equal, "time.adaptive=true", "time.tolerance=1e-4"},
+                                     {five, "time.adaptive=true", "time.tolerance=1e-4"}}) {
+    SceneSimulation simulation(sharp(overrides));
+    advance(simulation, 6);
+    const vesicle::Diagnostics d = simulation.measure().at(0);
+    EXPECT_LT(d.surface_divergence_max, 0.1) << overrides[1];
+    EXPECT_LT(std::abs(d.volume_error), 1e-10) << overrides[1];
+  }
+}
+
+}  // namespace
+}  // namespace vesiflow::coupling
