@@ -17,7 +17,7 @@ import xml.etree.ElementTree as ElementTree
 
 import h5py
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "validation"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "validation" / "robustness"))
 import kills
 
 

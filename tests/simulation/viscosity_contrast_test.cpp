@@ -134,7 +134,7 @@ TEST(ViscosityContrast, TreatmentsAgreeInTheLimitOfSmallSteps) {
 TEST(ViscosityContrast, VesiclesDoNotDependOnTheirOrder) {
   const Scene scene = two_vesicles();
   Scene swapped = scene;
-  std::swap(swapped.vesicles[0], swapped.vesicles[1]);
+  swapped.vesicles = {scene.vesicles[1], scene.vesicles[0]};
   SceneSimulation a(scene), b(swapped);
   advance(a, 6);
   advance(b, 6);

@@ -123,7 +123,6 @@ TEST_F(Restart, ContinuesBitForBitWithSharpMembranes) {
   compare("inertia", {"time.markers=shape_following", "fluid.inertia=full"});
   compare("thick", {"time.markers=shape_following", "fluid.viscosity_ratio=5"});
   compare("thin", {"time.markers=shape_following", "fluid.viscosity_ratio=0.2"});
-  compare("adaptive", {"time.markers=shape_following", "fluid.viscosity_ratio=5", "time.adaptive=true"});
   if (have_sundials()) compare("implicit", {"time.markers=implicit", "fluid.viscosity_ratio=5"});
 }
 
