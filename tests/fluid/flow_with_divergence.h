@@ -90,8 +90,7 @@ struct FlowWithDivergence {
     std::array<Vector3, 3> gradient{};
     for (const Wave& wave : waves)
       for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          gradient[i][j] -= wave.a[i] * wave.k[j] * std::sin(wave.phase(r)) * wave.factor(t);
+        for (int j = 0; j < 3; ++j) gradient[i][j] -= wave.a[i] * wave.k[j] * std::sin(wave.phase(r)) * wave.factor(t);
     return gradient;
   }
 

@@ -206,7 +206,7 @@ TEST(NavierStokesDivergence, IsOfSecondOrderInTime) {
     };
     const State coarse = run_from_rest(ends, 128), middle = run_from_rest(ends, 256), fine = run_from_rest(ends, 512);
     const auto first = difference(coarse, middle), second = difference(middle, fine);
-std::printf("time order %g %g\n", std::log2(first.first / second.first), std::log2(first.second / second.second));
+    std::printf("time order %g %g\n", std::log2(first.first / second.first), std::log2(first.second / second.second));
     EXPECT_NEAR(std::log2(first.first / second.first), 2.0, 0.1);
     EXPECT_GT(std::log2(first.second / second.second), 1.5);
   }
@@ -224,7 +224,8 @@ TEST(NavierStokesDivergence, TheSteadyPressureDoesNotDependOnTheStep) {
       parameters.stokes.tolerance = 1e-11;
       NavierStokes fluid(grid, parameters, walls);
       test::sample_faces(fluid.force(), [&](const Vector3& r) { return flow.stokes_force(r, 0.2); });
-      fluid.divergence_source() = test::sample_pressure(grid, [&](const Vector3& r) { return flow.divergence(r, 0.2); });
+      fluid.divergence_source() =
+          test::sample_pressure(grid, [&](const Vector3& r) { return flow.divergence(r, 0.2); });
       for (int k = 0; k < steps; ++k) fluid.step(dt);
       return State{fluid.velocity().clone(), fluid.pressure().clone()};
     };
@@ -344,7 +345,8 @@ TEST(SolveAgain, GivesTheSolutionOfTheForceAndTheSourceAsTheyAreNow) {
       parameters.inertia = Inertia::none;
       parameters.stokes.tolerance = 1e-11;
       if (is_field)
-        parameters.viscosity = sample_viscosity(unequal(ends), [](const Vector3& r) { return 2.0 + std::sin(3 * r[0]); });
+        parameters.viscosity =
+            sample_viscosity(unequal(ends), [](const Vector3& r) { return 2.0 + std::sin(3 * r[0]); });
       NavierStokes once(unequal(ends), parameters, stirring, WallMotion::unsteady);
       NavierStokes again(unequal(ends), parameters, stirring, WallMotion::unsteady);
       for (NavierStokes* fluid : {&once, &again}) {

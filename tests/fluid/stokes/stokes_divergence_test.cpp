@@ -150,10 +150,11 @@ Errors manufactured_errors(const AxisEnds& ends, bool is_field, int cells) {
   constexpr double t = 0.2;
   const WallVelocity walls(grid, [&](const Vector3& r, double) { return flow.velocity(r, t); });
   FaceVector force(grid);
-  test::sample_faces(force, [&](const Vector3& r) { return is_field ? flow.stress_force(r, t) : flow.stokes_force(r, t); });
+  test::sample_faces(force,
+                     [&](const Vector3& r) { return is_field ? flow.stress_force(r, t) : flow.stokes_force(r, t); });
   const Field<Cell> source = test::sample_pressure(grid, [&](const Vector3& r) { return flow.divergence(r, t); });
-  const Viscosity mu =
-      is_field ? Viscosity(sample_viscosity(grid, [&](const Vector3& r) { return flow.viscosity(r); })) : Viscosity(1.0);
+  const Viscosity mu = is_field ? Viscosity(sample_viscosity(grid, [&](const Vector3& r) { return flow.viscosity(r); }))
+                                : Viscosity(1.0);
   const Solution solution = solve(mu, force, walls, &source);
   EXPECT_TRUE(solution.report.converged);
   EXPECT_LT(max_divergence(solution.u, &source), 1e-11);
