@@ -20,8 +20,12 @@ constexpr const char* equal = "fluid.viscosity_ratio=1";
 constexpr const char* five = "fluid.viscosity_ratio=5";
 
 Scene sharp(const Overrides& more = {}) {
-  Overrides overrides{"coupling.method=sharp",     "time.markers=shape_following", "time.step=1/24",
-                      "fluid.inertia=none",        "membrane.sigma0=2000",         "vesicles.0.reduced_volume=0.9",
+  Overrides overrides{"coupling.method=sharp",
+                      "time.markers=shape_following",
+                      "time.step=1/24",
+                      "fluid.inertia=none",
+                      "membrane.g=70",
+                      "vesicles.0.reduced_volume=0.9",
                       "vesicles.0.rotation_deg=60"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return small_scene(overrides);
@@ -157,7 +161,7 @@ TEST(SharpMembrane, TwoViscositiesGoOverIntoOne) {
 // 1 - 1.7601 c^(1/3) + c - 1.5593 c^2 for the volume fraction c.
 Scene sinking_sphere(const char* ratio) {
   Scene scene = small_scene({"coupling.method=sharp", "time.markers=shape_following", "time.step=1/24",
-                             "fluid.inertia=none", "membrane.sigma0=2000", ratio, "flow.type=rest",
+                             "fluid.inertia=none", "membrane.g=70", ratio, "flow.type=rest",
                              "domain.periodic=[true, true, true]", "gravity.acceleration=[0, 0, -1]"});
   scene.vesicles[0] = VesicleParameters{};
   scene.vesicles[0].shape = Shape::sphere;

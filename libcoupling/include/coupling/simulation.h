@@ -34,7 +34,7 @@ struct VesicleState {
   std::int64_t redistributions = 0;    ///< their number since the start
   /// Velocity of the membrane (markers x 3) where it is sharp and between two viscosities, else empty: what its
   /// iteration begins with in the next step.
-  vesicle::VectorField interface_velocity{};
+  vesicle::VectorField interface_velocity = {};
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {

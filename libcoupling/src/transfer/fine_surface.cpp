@@ -84,9 +84,10 @@ void FineSurface::find_strides() {
 }
 
 void FineSurface::set(const vesicle::Coefficients& fields, const std::vector<int>& slots) {
-  fields_.resize(nodes(), fields.fields());
+  if (fields_.rows() != nodes() || fields_.cols() < fields.fields()) fields_.resize(nodes(), fields.fields());
   padded_.resample(fields, degrees_);
-  harmonics_->synthesis(padded_, fields_);
+  harmonics_->synthesis(padded_, fields_.leftCols(fields.fields()));
+  std::ranges::fill(jumps_, 0.0);  // also the numbers that this call does not name
   for (int f = 0; f < fields.fields(); ++f) {
     const int slot = slots[static_cast<std::size_t>(f)];
     double* record = jumps_.data() + 4 * mesh_->table_size() * (slot / 4) + slot % 4;
