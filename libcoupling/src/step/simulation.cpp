@@ -53,6 +53,7 @@ Simulation::Simulation(const SimulationParameters& parameters, const Flow& flow)
   if (flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow.velocity(x, 0.0); });
   if (parameters_.domain.periodic[0]) fluid_.uniform_force()[0] = flow.driving_force;
+  if (parameters_.coupling.method == CouplingMethod::sharp) fluid_.divergence_source();
   make_vesicles();
   if (parameters_.mesh.redistribute == Redistribute::when_needed)
     for (std::size_t i = 0; i < vesicles_.size(); ++i)
