@@ -32,6 +32,7 @@ struct VesicleState {
   vesicle::MembraneState membrane;     ///< positions, areas, strain and tension
   std::vector<double> motion_history;  ///< history of what moves the markers
   std::int64_t redistributions = 0;    ///< their number since the start
+
   /// Velocity of the membrane (markers x 3) where it is sharp and between two viscosities, else empty: what its
   /// iteration begins with in the next step.
   vesicle::VectorField interface_velocity = {};
