@@ -31,9 +31,9 @@ constexpr double thickness = 100.0;
 constexpr double buoyancy = 20.0, repulsion = 10.0;  // of membranes apart
 constexpr double look = 5.0;                         // at a mesh
 constexpr double diagnostics = 250.0, distances = 1800.0;
-// Of sharp membranes, over those of delta functions with as many markers: feet of points of the grid and jumps, and what is read.
-// Not measured on the reference machine yet.
-constexpr double sharp_spread_factor = 8.0, sharp_interpolate_factor = 2.0;
+// Of sharp membranes, over those of delta functions with as many markers (docs/plan.md): finding the points of the grid near them, and
+// for each solve the jumps, and what is read.
+constexpr double sharp_points_factor = 4.0, sharp_jumps_factor = 3.0, sharp_interpolate_factor = 1.5;
 constexpr double checkpoint_byte = 1.7, fluid_byte = 3.0, vesicle_byte = 2.0;
 }  // namespace ns
 
@@ -113,7 +113,7 @@ class CostModel {
   void sharpen() {
     const double solves = fluid_solves(scene_);
     for (PhaseCost& cost : costs_) {
-      if (cost.phase == "spread") cost.seconds *= ns::sharp_spread_factor * solves;
+      if (cost.phase == "spread") cost.seconds *= ns::sharp_points_factor + ns::sharp_jumps_factor * solves;
       if (cost.phase == "interpolate")
         cost.seconds *= ns::sharp_interpolate_factor * (scene_.corrects_fluid() ? 1.0 : solves);
       if (cost.phase.starts_with("fluid_")) cost.seconds *= solves;

@@ -168,7 +168,7 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   if (is_sharp(scene)) {
     plan.line("recommended region", "{}", describe_sharp_region(scene));
     plan.line("error of the grid",
-              "of second order in the spacing, not measured in whole runs yet: compare two spacings");
+              "of second order in the spacing (docs/coupling.md has what was measured): compare two spacings");
   } else if (scene.has_viscosity_contrast()) {
     plan.line("error of the grid", "of first order in the spacing where viscosities differ: compare two spacings");
   }

@@ -54,8 +54,8 @@ std::string describe_marker_spacing(const Scene& scene) {
 
 std::string describe_sharp_region(const Scene& scene) {
   return fmt::format(
-      "not mapped yet for coupling.method = \"sharp\": the limits of this plan are those of \"delta\"; no mirrors, "
-      "and walls at least {:g} h off",
+      "not mapped yet for coupling.method = \"sharp\", but for Reynolds numbers: the limits of this plan are those of "
+      "\"delta\"; no mirrors, and walls at least {:g} h off",
       coupling::wall_clearance(scene.coupling.kernel));
 }
 
