@@ -26,7 +26,7 @@ double angle_of_tangent(double x) {
 /// a point do not depend on its place among the others.
 class Walkers {
  public:
-  static constexpr int most = 64;
+  static constexpr int most = feet_at_a_time;
 
   Walkers(const FineSurface& surface, double close) : surface_(surface), close_squared_(close * close) {}
 

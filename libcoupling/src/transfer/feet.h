@@ -21,6 +21,9 @@ struct FootQuery {
   FineSurface::Node near;
 };
 
+/// So many are looked for at a time.
+inline constexpr int feet_at_a_time = 64;
+
 /// Finds feet by Newton's method: with X and n at a point of the surface, S = grad_s n there, r = x - X, d = r . n and
 /// t = r - d n, the foot of x is off by (1 + d S)^-1 t, and x at the distance d + t . S (1 + d S)^-1 t / 2 from it to
 /// second order. The steps converge quadratically.

@@ -3,38 +3,53 @@
 #include "transfer/fine_surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
+#include "transfer/roomy.h"
 #include "transfer/shares.h"
 
 namespace vesiflow::coupling {
 
-void FineSurface::make_mesh(int latitudes, int degrees) {
-  degrees_ = degrees;
-  mesh_.emplace(latitudes);
-  harmonics_.emplace(degrees, mesh_->grid(), 3);
-  geometry_.emplace(mesh_->grid());
-  stride_of_row_.resize(static_cast<std::size_t>(latitudes));
-  const auto size = static_cast<std::size_t>(mesh_->table_size());
-  form_.assign(form_size * size, 0.0);
-  slopes_.assign(slopes_size * size, 0.0F);
-  jumps_.assign(4 * size * static_cast<std::size_t>(own_records_), 0.0);
+namespace {
+
+/// A sixteenth more, and then the next of 16 sizes an octave, so that a body that breathes is on few meshes.
+int rounded_up(int latitudes) {
+  const int more = latitudes + latitudes / 16;
+  const int step = std::max(1, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 16);
+  return (more + step - 1) / step * step;
+}
+
+}  // namespace
+
+void FineSurface::choose_mesh(int latitudes, int degrees) {
+  auto found = std::ranges::find_if(meshes_, [&](const auto& one) {
+    return one->mesh.latitudes() == latitudes && one->harmonics.degrees() == degrees;
+  });
+  if (found == meshes_.end()) found = meshes_.insert(found, std::make_unique<OnMesh>(latitudes, degrees));
+  if (on_mesh_ == found->get()) return;
+  on_mesh_ = found->get();
+  const auto size = static_cast<std::size_t>(mesh().table_size());
+  resize_with_room(stride_of_row_, static_cast<std::size_t>(latitudes));
+  resize_with_room(surface_, size);
+  resize_with_room(jumps_, size * static_cast<std::size_t>(own_records_));
+  std::ranges::fill(surface_, SurfacePoint{Four::Zero(), Four::Zero(), decltype(SurfacePoint::slopes)::Zero()});
+  std::ranges::fill(jumps_, Four::Zero());
 }
 
 void FineSurface::update(const vesicle::Surface& surface, double spacing) {
+  spacing_ = spacing;
   const double longest = std::sqrt(std::max(surface.tangent_theta().square().rowwise().sum().maxCoeff(),
                                             surface.tangent_phi().square().rowwise().sum().maxCoeff()));
-  const int wanted =
+  const int latitudes =
       std::max(ParameterMesh::fewest_latitudes, static_cast<int>(std::ceil(std::numbers::pi * longest / spacing)));
   const vesicle::Coefficients& x = surface.position_coefficients();
-  // With room to grow, so that a body that stretches does not make a new mesh in every step.
-  if (!mesh_ || latitudes() < wanted || degrees_ != x.degrees()) make_mesh(wanted + wanted / 16, x.degrees());
-  spacing_ = spacing;
+  choose_mesh(rounded_up(latitudes), x.degrees());
 
-  geometry_->update(*harmonics_, x, vesicle::GeometryDetail::curvature);
+  on_mesh_->geometry.update(on_mesh_->harmonics, x, vesicle::GeometryDetail::curvature);
   values_.resize(nodes(), 3);
-  harmonics_->synthesis(x, values_);
+  on_mesh_->harmonics.synthesis(x, values_);
   lower_ = values_.colwise().minCoeff().transpose();
   upper_ = values_.colwise().maxCoeff().transpose();
   tabulate_surface();
@@ -42,19 +57,18 @@ void FineSurface::update(const vesicle::Surface& surface, double spacing) {
 }
 
 void FineSurface::tabulate_surface() {
-  const vesicle::SurfaceGeometry& g = *geometry_;
+  const vesicle::SurfaceGeometry& g = on_mesh_->geometry;
   const auto tabulate = [&](int i, int j) {
-    const Eigen::Index node = mesh_->grid().index(i, j);
-    const std::ptrdiff_t place = mesh_->in_table(j, i);
+    const Eigen::Index node = mesh().grid().index(i, j);
     const auto row = [node](const auto& field) { return Eigen::Vector3d(field.row(node).transpose()); };
     const Eigen::Vector3d n = row(g.normal());
-    Eigen::Map<Eigen::Vector3d>{form_.data() + form_size* place} = row(values_);
-    Eigen::Map<Eigen::Vector3d>{form_.data() + form_size* place + 4} = n;
+    SurfacePoint& point = surface_[static_cast<std::size_t>(mesh().in_table(j, i))];
+    point.position.head<3>() = row(values_).array();
+    point.normal.head<3>() = n.array();
 
     const Eigen::Vector3f dual_theta = row(g.dual_theta()).cast<float>(), dual_phi = row(g.dual_phi()).cast<float>();
-    const auto [s_theta, s_phi] = mesh_->tangents_at({j, i});
-    float* slopes = slopes_.data() + slopes_size * place;
-    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>{slopes} =
+    const auto [s_theta, s_phi] = mesh().tangents_at({j, i});
+    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>{point.slopes.data()} =
         s_theta.cast<float>() * dual_theta.transpose() + s_phi.cast<float>() * dual_phi.transpose();
     // S = -(n . X_ab) X^a X^b.
     const auto tt = static_cast<float>(-n.dot(row(g.theta_theta())));
@@ -63,42 +77,79 @@ void FineSurface::tabulate_surface() {
     const Eigen::Vector3f a = tt * dual_theta + tp * dual_phi, b = tp * dual_theta + pp * dual_phi;
     const auto shape = [&](int k, int l) { return a[k] * dual_theta[l] + b[k] * dual_phi[l]; };
     for (int k = 0; k < 3; ++k) {
-      slopes[9 + k] = shape(k, k);
-      slopes[12 + k] = shape(k, (k + 1) % 3);
+      point.slopes[9 + k] = shape(k, k);
+      point.slopes[12 + k] = shape(k, (k + 1) % 3);
     }
   };
   in_shares(latitudes(), [&](Eigen::Index begin, Eigen::Index end) {
     for (auto j = static_cast<int>(begin); j < static_cast<int>(end); ++j)
       for (int i = 0; i < longitudes(); ++i) tabulate(i, j);
   });
-  mesh_->fill_margins(form_.data(), form_size);
-  mesh_->fill_margins(slopes_.data(), slopes_size);
+  mesh().fill_margins(surface_.data());
 }
 
 void FineSurface::find_strides() {
   for (int j = 0; j < latitudes(); ++j) {
-    const auto tangents = geometry_->tangent_phi().middleRows(mesh_->grid().index(0, j), longitudes());
-    const double apart = std::sqrt(tangents.square().rowwise().sum().maxCoeff()) * mesh_->grid().longitude_spacing();
+    const auto tangents = on_mesh_->geometry.tangent_phi().middleRows(mesh().grid().index(0, j), longitudes());
+    const double apart = std::sqrt(tangents.square().rowwise().sum().maxCoeff()) * mesh().grid().longitude_spacing();
     stride_of_row_[static_cast<std::size_t>(j)] = std::max(1, static_cast<int>(spacing_ / apart));
   }
 }
 
 void FineSurface::set(const vesicle::Coefficients& fields, const std::vector<int>& slots) {
   if (fields_.rows() != nodes() || fields_.cols() < fields.fields()) fields_.resize(nodes(), fields.fields());
-  padded_.resample(fields, degrees_);
-  harmonics_->synthesis(padded_, fields_.leftCols(fields.fields()));
-  std::ranges::fill(jumps_, 0.0);  // also the numbers that this call does not name
+  padded_.resample(fields, on_mesh_->harmonics.degrees());
+  on_mesh_->harmonics.synthesis(padded_, fields_.leftCols(fields.fields()));
+  std::ranges::fill(jumps_, Four::Zero());  // also the numbers that this call does not name
   for (int f = 0; f < fields.fields(); ++f) {
     const int slot = slots[static_cast<std::size_t>(f)];
-    double* record = jumps_.data() + 4 * mesh_->table_size() * (slot / 4) + slot % 4;
+    Four* record = jumps_.data() + mesh().table_size() * (slot / 4);
     for (int j = 0; j < latitudes(); ++j) {
-      double* to = record + 4 * mesh_->in_table(j, 0);
-      const double* from = &fields_(mesh_->grid().index(0, j), f);
-      for (int i = 0; i < longitudes(); ++i) to[4 * i] = from[i];
+      Four* to = record + mesh().in_table(j, 0);
+      const double* from = &fields_(mesh().grid().index(0, j), f);
+      for (int i = 0; i < longitudes(); ++i) to[i][slot % 4] = from[i];
     }
   }
   for (int record = 0; record < own_records_; ++record)
-    mesh_->fill_margins(jumps_.data() + 4 * mesh_->table_size() * record, 4);
+    mesh().fill_margins(jumps_.data() + mesh().table_size() * record);
+}
+
+const FineSurface::Four& FineSurface::at_node(int column, int row, int record) const {
+  const auto node = static_cast<std::size_t>(mesh().in_table(row, column));
+  if (record == position) return surface_[node].position;
+  return record == normal ? surface_[node].normal : table_of(record)[node];
+}
+
+SurfacePoint FineSurface::at(const Place& place) const {
+  using Slopes = decltype(SurfacePoint::slopes);
+  constexpr int width = ParameterMesh::width;
+  const ParameterMesh::Weights weights = mesh().weights(place);
+  const SurfacePoint* const first = surface_.data() + mesh().first_in_table(place);
+  SurfacePoint sum{Four::Zero(), Four::Zero(), Slopes::Zero()};
+  // Twice over the nodes, so that the weights of the columns stay in registers.
+  const SurfacePoint* node = first;
+  for (int j = 0; j < width; ++j, node += mesh().row_size()) {
+    Four x = Four::Zero(), n = Four::Zero();
+    for (int i = 0; i < width; ++i) {
+      x += weights.of_column[i] * node[i].position;
+      n += weights.of_column[i] * node[i].normal;
+    }
+    sum.position += weights.of_row[j] * x;
+    sum.normal += weights.of_row[j] * n;
+  }
+  Eigen::Array<float, 8, 1> of_row, of_column;
+#pragma omp simd
+  for (int i = 0; i < 8; ++i) {
+    of_row[i] = static_cast<float>(weights.of_row[i]);
+    of_column[i] = static_cast<float>(weights.of_column[i]);
+  }
+  node = first;
+  for (int j = 0; j < width; ++j, node += mesh().row_size()) {
+    Slopes slopes = Slopes::Zero();
+    for (int i = 0; i < width; ++i) slopes += of_column[i] * node[i].slopes;
+    sum.slopes += of_row[j] * slopes;
+  }
+  return sum;
 }
 
 }  // namespace vesiflow::coupling

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "transfer/roomy.h"
 #include "transfer/shares.h"
 
 namespace vesiflow::coupling {
@@ -13,6 +14,13 @@ namespace {
 
 /// From here, in spacings, one step more of Newton's method is exact to 1e-4 of a spacing.
 constexpr double close_to_foot = 0.02;
+
+/// Within which distance a point has a node if its foot is within `distance`. The node nearest to a foot is no further
+/// from it than half a diagonal of the mesh, 0.71 spacings; where the surface bends away from the point with the
+/// curvature kappa that counts sqrt(1 + kappa distance) times. Room for kappa distance = 2.
+double distance_of_node(double distance, double spacing) {
+  return std::hypot(distance, 0.71 * std::sqrt(3.0) * spacing);
+}
 
 }  // namespace
 
@@ -27,12 +35,10 @@ std::size_t GridBand::count() const {
 
 void GridBand::update(const FineSurface& surface, double width, const vesicle::VectorField* readers) {
   frame(surface, width, readers);
-  // The node nearest to a point is no more than 0.7 spacings from its foot, and less than one further where the surface
-  // bends away from the point.
-  const auto to_node = [&](double distance) { return std::hypot(distance, surface.spacing()); };
   const double corner = 0.5 * read_points * std::hypot(box_.spacing[0], box_.spacing[1], box_.spacing[2]);
-  nearest_.search(surface, box_, to_node(readers != nullptr ? std::max(width, corner) : width));
-  list_candidates(to_node(width), readers);
+  const double farthest = readers != nullptr ? std::max(width, corner) : width;
+  nearest_.search(surface, box_, distance_of_node(farthest, surface.spacing()));
+  list_candidates(distance_of_node(width, surface.spacing()), readers);
   project(surface, width);
 }
 
@@ -63,10 +69,11 @@ void GridBand::frame(const FineSurface& surface, double width, const vesicle::Ve
     const int last = static_cast<int>(std::ceil(box_.index_at(axis, upper))) + 1;
     box_.extent[axis] = std::max(last - box_.first[axis] + 1, NearestNodes::smallest_row);
     std::vector<int>& in_grid = in_grid_[static_cast<std::size_t>(axis)];
-    in_grid.clear();
-    for (int index = box_.first[axis]; index <= box_.last(axis); ++index) {
-      const int period = period_[axis];
-      in_grid.push_back(period == 0 ? index : ((index % period) + period) % period);
+    resize_with_room(in_grid, static_cast<std::size_t>(box_.extent[axis]));
+    const int period = period_[axis];
+    for (int i = 0; i < box_.extent[axis]; ++i) {
+      const int index = box_.first[axis] + i;
+      in_grid[static_cast<std::size_t>(i)] = period == 0 ? index : ((index % period) + period) % period;
     }
   }
   resize_with_room(distance_, box_.size());
@@ -78,6 +85,8 @@ void GridBand::frame(const FineSurface& surface, double width, const vesicle::Ve
 
 void GridBand::list_candidates(double reach, const vesicle::VectorField* readers) {
   const auto plane = box_.stride(2);
+  const NearestNodes::Key* const keys = nearest_.keys().data();
+  NearestNodes::Key* const limits = limits_.data();
   first_of_plane_[0] = 0;
   in_shares(box_.extent[2], [&](Eigen::Index first, Eigen::Index end) {
     const auto fill = [&](auto& values, auto value) {
@@ -90,7 +99,7 @@ void GridBand::list_candidates(double reach, const vesicle::VectorField* readers
     if (readers != nullptr) mark_read(*readers, static_cast<int>(first), static_cast<int>(end));
     for (Eigen::Index k = first; k < end; ++k) {
       int count = 0;
-      for (Eigen::Index at = k * plane; at < (k + 1) * plane; ++at) count += is_candidate(at) ? 1 : 0;
+      for (Eigen::Index at = k * plane; at < (k + 1) * plane; ++at) count += keys[at] < limits[at] ? 1 : 0;
       first_of_plane_[static_cast<std::size_t>(k) + 1] = count;
     }
   });
@@ -104,7 +113,7 @@ void GridBand::list_candidates(double reach, const vesicle::VectorField* readers
     for (int k = box_.first[2] + static_cast<int>(first); k < box_.first[2] + static_cast<int>(end); ++k)
       for (int j = box_.first[1]; j <= box_.last(1); ++j)
         for (int i = box_.first[0]; i <= box_.last(0); ++i, ++at)
-          if (is_candidate(at)) {
+          if (keys[at] < limits[at]) {
             next->index = {i, j, k};
             next->at = at;
             ++next;
@@ -117,29 +126,36 @@ void GridBand::mark_read(const vesicle::VectorField& readers, int first_plane, i
     std::array<int, 3> from;
     for (int axis = 0; axis < 3; ++axis) from[axis] = reading(axis, readers(m, axis)).first - box_.first[axis];
     for (int c = std::max(from[2], first_plane); c < std::min(from[2] + read_points, end_plane); ++c)
-      for (int b = from[1]; b < from[1] + read_points; ++b)
-        std::fill_n(limits_.begin() + c * box_.stride(2) + b * box_.stride(1) + from[0], read_points, nearest_.limit());
+      for (int b = from[1]; b < from[1] + read_points; ++b) {
+        NearestNodes::Key* limits = limits_.data() + c * box_.stride(2) + b * box_.stride(1) + from[0];
+        for (int a = 0; a < read_points; ++a) limits[a] = NearestNodes::limit();
+      }
   }
 }
 
 void GridBand::project(const FineSurface& surface, double width) {
   const double close = close_to_foot * *std::min_element(box_.spacing.begin(), box_.spacing.end());
-  in_shares(static_cast<Eigen::Index>(points_.size()), [&](Eigen::Index share_begin, Eigen::Index share_end) {
-    constexpr Eigen::Index most = 64;
-    std::array<FootQuery, most> queries;
-    std::array<Foot, most> feet;
-    for (Eigen::Index begin = share_begin; begin < share_end; begin += most) {
-      const auto count = static_cast<std::size_t>(std::min(most, share_end - begin));
-      const std::span<Point> points(points_.data() + begin, count);
-      for (std::size_t i = 0; i < count; ++i) queries[i] = {position(points[i].index), nearest_.node(points[i].at)};
-      find_feet(surface, {queries.data(), count}, close, {feet.data(), count});
-      for (std::size_t i = 0; i < count; ++i) {
-        const auto at = static_cast<std::size_t>(points[i].at);
-        const bool is_read = limits_[at] == nearest_.limit();
-        points[i].foot = feet[i];
-        if (!is_read && !(std::abs(feet[i].distance) <= width)) points[i].foot.distance = far;
-        distance_[at] = points[i].distance();
-      }
+  const auto project_some = [&](std::span<Point> points) {
+    std::array<FootQuery, feet_at_a_time> queries;
+    std::array<Foot, feet_at_a_time> feet;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      queries[i] = {position(points[i].index), nearest_.node(points[i].at)};
+    find_feet(surface, {queries.data(), points.size()}, close, feet);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto at = static_cast<std::size_t>(points[i].at);
+      const bool is_read = limits_[at] == NearestNodes::limit();
+      points[i].foot = feet[i];
+      if (!is_read && !(std::abs(feet[i].distance) <= width)) points[i].foot.distance = far;
+      distance_[at] = points[i].distance();
+    }
+  };
+  // The same points are looked for together for any number of threads.
+  const std::size_t blocks = (points_.size() + feet_at_a_time - 1) / feet_at_a_time;
+  in_shares(static_cast<Eigen::Index>(blocks), [&](Eigen::Index begin, Eigen::Index end) {
+    for (auto block = static_cast<std::size_t>(begin); block < static_cast<std::size_t>(end); ++block) {
+      const std::size_t first = block * feet_at_a_time;
+      const std::size_t count = std::min<std::size_t>(feet_at_a_time, points_.size() - first);
+      project_some(std::span<Point>(points_).subspan(first, count));
     }
   });
 }

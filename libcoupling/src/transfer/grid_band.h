@@ -92,7 +92,6 @@ class GridBand {
  private:
   void frame(const FineSurface& surface, double width, const vesicle::VectorField* readers);
   void list_candidates(double reach, const vesicle::VectorField* readers);
-  bool is_candidate(std::ptrdiff_t at) const { return nearest_.key(at) < limits_[static_cast<std::size_t>(at)]; }
   void mark_read(const vesicle::VectorField& readers, int first_plane, int end_plane);
   void project(const FineSurface& surface, double width);
 

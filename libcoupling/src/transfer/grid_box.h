@@ -42,11 +42,4 @@ struct GridBox {
   double index_at(int axis, double x) const { return (x - origin[axis]) * per_spacing[axis]; }
 };
 
-/// Of lists of the points of a box, which is now larger and now smaller as a body moves and turns: with room to spare.
-template <class List>
-void resize_with_room(List& list, std::size_t size) {
-  if (list.capacity() < size) list.reserve(size + size / 2);
-  list.resize(size);
-}
-
 }  // namespace vesiflow::coupling

@@ -6,16 +6,20 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
+#include "transfer/roomy.h"
 #include "transfer/shares.h"
 
 namespace vesiflow::coupling {
 namespace {
 
-/// Points of a row that are treated at once.
-constexpr int lanes = 8;
+/// Points of a row that are treated at once, and rows of a plane.
+constexpr int lanes = 8, most_rows = 8;
 static_assert(lanes <= NearestNodes::smallest_row);
+
+struct Range {
+  int from, to;
+};
 
 }  // namespace
 
@@ -23,66 +27,65 @@ void NearestNodes::search(const FineSurface& surface, const GridBox& box, double
   longitudes_ = surface.longitudes();
   node_bits_ = std::bit_width(static_cast<unsigned>(surface.nodes() - 1));
   reach_ = reach;
-  // The sum of two parts that are at most the square of the reach fits.
-  const std::uint32_t most = (std::numeric_limits<std::uint32_t>::max() >> node_bits_) / 2U;
-  scale_ = (most - 1U) / (reach * reach);
+  // What three axes add up to fits.
+  most_units_ = (limit() >> node_bits_) / 3U;
+  units_ = most_units_ / (reach * reach);
   resize_with_room(keys_, box.size());
   in_shares(box.extent[2], [&](Eigen::Index begin, Eigen::Index end) {
-    const int first = box.first[2] + static_cast<int>(begin), last = box.first[2] + static_cast<int>(end) - 1;
     std::fill(keys_.begin() + begin * box.stride(2), keys_.begin() + end * box.stride(2), limit());
-    search_planes(surface, box, first, last);
+    search_planes(surface, box, box.first[2] + static_cast<int>(begin), box.first[2] + static_cast<int>(end) - 1);
   });
 }
 
-void NearestNodes::search_planes(const FineSurface& surface, const GridBox& box, int first, int last) {
-  const GridBox points = box;  // no store below changes a copy
-  const double square = reach_ * reach_;
-  const auto part = [scale = scale_, bits = node_bits_, square](double squared_distance) {
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(scale * std::min(squared_distance, square))) << bits;
+void NearestNodes::search_planes(const FineSurface& surface, const GridBox& whole, int first, int last) {
+  const GridBox box = whole;  // a copy, which no store below changes
+  // What a distance along an axis adds to a key.
+  const auto part = [units = units_, most = static_cast<double>(most_units_), bits = node_bits_](double distance) {
+    return static_cast<Key>(static_cast<std::int32_t>(std::min(units * distance * distance, most))) << bits;
   };
-  // As many as are within reach at most, in whole lanes. A box has at least that many.
-  const int blocks = (static_cast<int>(2.0 * reach_ / points.spacing[0]) + lanes) / lanes;
+  const Key most = most_units_ << node_bits_;
   for (int row = 0; row < surface.latitudes(); ++row)
     for (int column = 0; column < surface.longitudes(); column += surface.stride_of_row(row)) {
-      const auto x = surface.at_node(column, row, FineSurface::position);
-      const auto number = static_cast<std::uint32_t>(row * surface.longitudes() + column);
-      const auto from = [&](int axis, int least) {
-        return std::max(least, static_cast<int>(std::ceil(points.index_at(axis, x[axis] - reach_))));
+      const auto& x = surface.at(FineSurface::Node{row, column}).position;
+      const auto number = static_cast<Key>(row * surface.longitudes() + column);
+      const auto range = [&](int axis, int least, int greatest) {
+        return Range{std::max(least, static_cast<int>(std::ceil(box.index_at(axis, x[axis] - reach_)))),
+                     std::min(greatest, static_cast<int>(std::floor(box.index_at(axis, x[axis] + reach_))))};
       };
-      const auto to = [&](int axis, int most) {
-        return std::min(most, static_cast<int>(std::floor(points.index_at(axis, x[axis] + reach_))));
-      };
-      const int j_from = from(1, points.first[1]), j_to = to(1, points.last(1));
-      const int k_from = from(2, first), k_to = to(2, last);
-      for (int block = 0; block < blocks; ++block) {
-        const int i = std::min(from(0, points.first[0]) + block * lanes, points.last(0) - lanes + 1);
-        std::array<std::uint32_t, lanes> along_row;
-        for (int a = 0; a < lanes; ++a) {
-          const double dx = points.coordinate(0, i + a) - x[0];
-          along_row[static_cast<std::size_t>(a)] = part(dx * dx) | number;
-        }
-        for (int k = k_from; k <= k_to; ++k) {
-          const double dz = points.coordinate(2, k) - x[2], left = square - dz * dz;
-          std::uint32_t* keys = keys_.data() + points.offset(i, j_from, k);
-          for (int j = j_from; j <= j_to; ++j, keys += points.extent[0]) {
-            const double dy = points.coordinate(1, j) - x[1];
-            if (dy * dy > left) continue;
-            const std::uint32_t rest = part(dy * dy + dz * dz);
+      const Range planes = range(2, first, last);
+      if (planes.from > planes.to) continue;
+      const Range rows = range(1, box.first[1], box.last(1)), points = range(0, box.first[0], box.last(0));
+      for (int point = points.from; point <= points.to; point += lanes)
+        for (int first_row = rows.from; first_row <= rows.to; first_row += most_rows) {
+          const int i = std::min(point, box.last(0) - lanes + 1);
+          std::array<Key, lanes> along_x;
 #pragma omp simd
-            for (std::size_t a = 0; a < lanes; ++a) {
-              const std::uint32_t key = along_row[a] + rest;
-              keys[a] = key < keys[a] ? key : keys[a];
+          for (int a = 0; a < lanes; ++a) along_x[a] = part(box.coordinate(0, i + a) - x[0]) | number;
+          std::array<Key, most_rows> along_y;
+#pragma omp simd
+          for (int b = 0; b < most_rows; ++b) along_y[b] = part(box.coordinate(1, first_row + b) - x[1]);
+          const int count = std::min(most_rows, rows.to - first_row + 1);
+          for (int k = planes.from; k <= planes.to; ++k) {
+            const Key along_z = part(box.coordinate(2, k) - x[2]);
+            Key* keys = keys_.data() + box.offset(i, first_row, k);
+            for (int b = 0; b < count; ++b, keys += box.extent[0]) {
+              const Key rest = along_y[b] + along_z;
+              if (rest > most) continue;
+#pragma omp simd
+              for (int a = 0; a < lanes; ++a) {
+                const Key key = along_x[a] + rest;
+                keys[a] = key < keys[a] ? key : keys[a];
+              }
             }
           }
         }
-      }
     }
 }
 
 NearestNodes::Key NearestNodes::limit(double distance) const {
-  // What is cut off from both parts of the squared distance is less than two units.
+  // What is cut off makes keys smaller.
   const double least = std::min(distance, reach_);
-  return (static_cast<Key>(scale_ * least * least) + 1U) << node_bits_;
+  return (static_cast<Key>(units_ * least * least) + 1U) << node_bits_;
 }
 
 }  // namespace vesiflow::coupling

@@ -21,9 +21,9 @@ class NearestNodes {
   /// that are closer than they need be are thinned. Nothing allocates but for a larger box.
   void search(const FineSurface& surface, const GridBox& box, double reach);
 
-  /// Of a point at some offset in the box: squared distance of its nearest node and that node, to compare with limits.
+  /// Of each point of the box: squared distance of its nearest node and that node, to compare with limits.
   using Key = std::uint32_t;
-  Key key(std::ptrdiff_t at) const { return keys_[static_cast<std::size_t>(at)]; }
+  const std::vector<Key>& keys() const { return keys_; }
   /// Keys below it are those of points with a node within a distance up to the reach.
   Key limit(double distance) const;
   /// Keys below it are those of points that have a node.
@@ -31,19 +31,20 @@ class NearestNodes {
 
   /// The node nearest to the point at that offset in the box, which has one.
   FineSurface::Node node(std::ptrdiff_t at) const {
-    const auto number = static_cast<int>(key(at) & ((1U << node_bits_) - 1U));
+    const auto number = static_cast<int>(keys_[static_cast<std::size_t>(at)] & ((1U << node_bits_) - 1U));
     return {number / longitudes_, number % longitudes_};
   }
 
  private:
   void search_planes(const FineSurface& surface, const GridBox& box, int first, int last);
 
-  // Squared distance in the upper bits, in units of 1 / scale_, and node in the lower: so the nearest is the smallest,
-  // and of two at the same distance the one of the lower number, in whatever order they come.
+  // Squared distance in units in the upper bits, node in the lower: so the nearest is the smallest, and of several at
+  // the same distance the one of the lowest number, in whatever order they come.
   std::vector<Key> keys_;
   int node_bits_ = 1;
   int longitudes_ = 1;
-  double reach_ = 0.0, scale_ = 0.0;
+  Key most_units_ = 1;
+  double reach_ = 0.0, units_ = 0.0;  // units per squared distance
 };
 
 }  // namespace vesiflow::coupling

@@ -107,9 +107,9 @@ class ParameterMesh {
   /// The first of the nodes that the weights of a place are for.
   std::ptrdiff_t first_in_table(const Place& place) const { return in_table(place.row - 2, place.column - 2); }
 
-  /// Sets the margins of a table of so many numbers a node.
+  /// Copies what is in the margins of a table from its nodes.
   template <class T>
-  void fill_margins(T* table, int numbers) const;
+  void fill_margins(T* table) const;
 
  private:
   static constexpr int margin = 3;
@@ -148,11 +148,10 @@ inline ParameterMesh::Place ParameterMesh::place_at(double theta, double column)
 }
 
 template <class T>
-void ParameterMesh::fill_margins(T* table, int numbers) const {
+void ParameterMesh::fill_margins(T* table) const {
   const int n = latitudes(), m = longitudes();
   const auto copy = [&](int row, int column, int from_row, int from_column, int count) {
-    std::copy_n(table + numbers * in_table(from_row, from_column), numbers * count,
-                table + numbers * in_table(row, column));
+    std::copy_n(table + in_table(from_row, from_column), count, table + in_table(row, column));
   };
   for (int j = -margin; j < n + margin; ++j) {
     // Across a pole lies the meridian on the other side.

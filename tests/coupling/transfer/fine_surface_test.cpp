@@ -14,7 +14,7 @@
 #include "transfer/ellipsoid.h"
 #include "vesicle/point_evaluation.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::fine_surface_test {
 namespace {
 
 using test::Ellipsoid;
@@ -107,11 +107,12 @@ TEST(FineSurface, HasItsSlopes) {
     }
 }
 
-// No two neighbours further apart than wished, also on a body that is long; and finer for one that stretches.
+// No two neighbours further apart than wished, also on a body that is long; and finer for one that stretches. A mesh that
+// depended on the bodies before would not be that of a run that is restarted.
 TEST(FineSurface, NodesAreAsCloseAsWished) {
   constexpr double spacing = 0.15;
   FineSurface fine(1);
-  int before = 0;
+  int before = 0, first = 0;
   for (const Eigen::Vector3d& axes : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(0.7, 0.9, 1.6)}) {
     fine.update(surface_of(Ellipsoid(axes, {0, 0, 0}), 24), spacing);
     double farthest = 0.0;
@@ -126,9 +127,10 @@ TEST(FineSurface, NodesAreAsCloseAsWished) {
     EXPECT_GT(fine.latitudes(), before);
     EXPECT_EQ(fine.nodes(), fine.latitudes() * fine.longitudes());
     before = fine.latitudes();
+    if (first == 0) first = before;
   }
   fine.update(surface_of(Ellipsoid({1, 1, 1}, {0, 0, 0}), 24), spacing);
-  EXPECT_EQ(fine.latitudes(), before) << "a mesh that is fine enough is kept";
+  EXPECT_EQ(fine.latitudes(), first);
 }
 
 // Of as many degrees as the surface or less, in any order of slots; slots that nothing is set of stay zero.
@@ -190,4 +192,4 @@ TEST(FineSurface, AllocatesNothingOnAMeshThatFits) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::fine_surface_test
