@@ -8,19 +8,26 @@
 #include <Eigen/QR>
 
 namespace equilibrium {
+namespace {
+
+// The gradients of area and volume, side by side.
+Eigen::MatrixXd constrained_columns(const Gradients& gradients) {
+  Eigen::MatrixXd result(gradients.area.size(), 2);
+  result << gradients.area, gradients.volume;
+  return result;
+}
+
+}  // namespace
 
 Stationarity stationarity(const Gradients& gradients) {
-  Eigen::MatrixX2d constraints(gradients.area.size(), 2);
-  constraints << gradients.area, -gradients.volume;
-  const Eigen::Vector2d multipliers = constraints.colPivHouseholderQr().solve(-gradients.energy);
-  return {gradients.energy + constraints * multipliers, multipliers[0], multipliers[1]};
+  const Eigen::MatrixXd constraints = constrained_columns(gradients);
+  const Eigen::VectorXd multipliers = constraints.householderQr().solve(-gradients.energy);
+  return {gradients.energy + constraints * multipliers, multipliers[0], -multipliers[1]};
 }
 
 Directions directions(const Gradients& gradients) {
   const Eigen::Index unknowns = gradients.area.size();
-  Eigen::MatrixXd constraints(unknowns, 2);
-  constraints << gradients.area, gradients.volume;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(constraints);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(constrained_columns(gradients));
   const Eigen::MatrixXd q = factors.householderQ() * Eigen::MatrixXd::Identity(unknowns, unknowns);
   return {q.leftCols(2), q.rightCols(unknowns - 2)};
 }
@@ -35,10 +42,10 @@ bool retract(ConstrainedEnergy& energy, const Eigen::MatrixXd& constrained, Eige
       if (!errors.allFinite()) return false;
       if (errors.lpNorm<Eigen::Infinity>() <= rounding) return true;
       const Gradients& gradients = energy.constraint_gradients();
-      Eigen::MatrixX2d derivatives(x.size(), 2);
-      derivatives << gradients.area / energy.target_area(), gradients.volume / energy.target_volume();
-      const Eigen::Matrix2d jacobian = derivatives.transpose() * constrained;
-      x -= constrained * jacobian.partialPivLu().solve(errors);
+      Eigen::Matrix2d jacobian;
+      jacobian << constrained.transpose() * gradients.area / energy.target_area(),
+          constrained.transpose() * gradients.volume / energy.target_volume();
+      x -= constrained * (jacobian.transpose().inverse() * errors);
     }
     energy.set(x);
     // The last steps may jitter at rounding of the sums.
