@@ -15,7 +15,8 @@ scripts/install-deps.sh --test
 level=$(widest_level)
 options=(-G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_WERROR=ON)
 logged build/test/configure.log "Configuring build/test" cmake -S . -B build/test "${options[@]}" \
-  -DVESIFLOW_ARCH="$level" -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BUILD_BENCH=OFF -DVESIFLOW_WITH_SUNDIALS=ON
+  -DVESIFLOW_ARCH="$level" -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_TEST_BATCH=6 -DVESIFLOW_BUILD_BENCH=OFF \
+  -DVESIFLOW_WITH_SUNDIALS=ON
 logged build/test/build.log "Compiling libraries, apps and tests for ${level:-any processor}" cmake --build build/test
 
 # Tests that run side by side share the cores: threads that wait must not spin.

@@ -6,7 +6,7 @@
 #include "support/allocation_counter.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::allocation_test {
 namespace {
 
 TEST(Allocation, NoneInAWarmedUpStep) {
@@ -30,4 +30,4 @@ TEST(Allocation, NoneInAWarmedUpStep) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::allocation_test

@@ -14,7 +14,7 @@
 #include "fluid/operators.h"
 #include "fluid/resampling.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::argument_shapes_test {
 namespace {
 
 using ::testing::AllOf;
@@ -141,4 +141,4 @@ TEST(ArgumentShapes, OfVectorsOfUnknowns) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::argument_shapes_test

@@ -17,7 +17,7 @@
 #include "fluid/operators.h"
 #include "fluid/stokes.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::tour_test {
 namespace {
 
 // Without indentation, and without the backslashes that bars need in tables.
@@ -276,4 +276,4 @@ TEST(TourOfLibfluid, AnswersWrongInputAsItSays) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::tour_test

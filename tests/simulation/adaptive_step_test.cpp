@@ -12,7 +12,7 @@
 #include "coupling/simulation.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::adaptive_step_test {
 namespace {
 
 const Overrides adaptive{"time.adaptive=true", "time.end=0.5"};
@@ -253,4 +253,4 @@ TEST(AdaptiveStep, RefusesImpossibleLimits) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::adaptive_step_test

@@ -20,7 +20,7 @@
 #include "step/velocity_noise.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::blow_up_test {
 namespace {
 
 using run::RunStatus, run::RunOptions, run::read_checkpoint_scene, run::restore_checkpoint, run::run;
@@ -249,4 +249,4 @@ TEST(SetTimeStep, EndsOnTheSameTimeAndRefusesWhatIsNoStep) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::blow_up_test

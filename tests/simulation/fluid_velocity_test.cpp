@@ -14,7 +14,7 @@
 #include "coupling/simulation.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::fluid_velocity_test {
 namespace {
 
 Overrides sharp(std::initializer_list<std::string> more) {
@@ -227,4 +227,4 @@ TEST(FluidVelocity, IsWhatTheGuardAgainstBlowUpsLooksAt) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::fluid_velocity_test

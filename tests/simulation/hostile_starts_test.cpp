@@ -14,7 +14,7 @@
 #include "step/blow_up_guard.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::hostile_starts_test {
 namespace {
 
 using run::RunQuality;
@@ -279,4 +279,4 @@ TEST(HostileStarts, AThinFluidInsideIsQuiet) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::hostile_starts_test

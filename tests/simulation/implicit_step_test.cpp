@@ -15,7 +15,7 @@
 #include "support/small_scene.h"
 #include "vesicle/mesh_control.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::implicit_step_test {
 namespace {
 
 constexpr double stiff = 60000;  // g in the thousands for time.step = 1/24
@@ -235,4 +235,4 @@ TEST_F(ImplicitStepTest, AdaptiveStepsAreRefusedWhereItIsNotSolved) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::implicit_step_test

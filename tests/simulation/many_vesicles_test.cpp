@@ -14,7 +14,7 @@
 #include "support/allocation_counter.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::many_vesicles_test {
 namespace {
 
 void advance(SceneSimulation& simulation, long steps) {
@@ -207,4 +207,4 @@ TEST(ManyVesicles, APeriodicArrayOfSpheresSinksAsHasimotoFound) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::many_vesicles_test

@@ -13,7 +13,7 @@
 #include "run/plan.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::mirror_test {
 namespace {
 
 constexpr long steps = 20;
@@ -194,4 +194,4 @@ TEST(Mirror, ThePlanNamesThePlanes) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::mirror_test

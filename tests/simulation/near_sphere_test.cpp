@@ -11,7 +11,7 @@
 #include "coupling/simulation.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::near_sphere_test {
 namespace {
 
 Scene nearly_a_sphere(double reduced_volume, const Overrides& more = {}) {
@@ -93,4 +93,4 @@ TEST(NearSphere, KeepsItsAreaAtRest) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::near_sphere_test

@@ -22,7 +22,7 @@
 #include "support/allocation_counter.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::phases_test {
 namespace {
 
 using run::RunOptions;
@@ -185,4 +185,4 @@ TEST_F(Output, IsEnteredOnceForEachFile) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::phases_test

@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::shape_following_test {
 namespace {
 
 constexpr double stiff = 60000;  // g in the thousands for time.step = 1/24
@@ -279,4 +279,4 @@ TEST(ShapeFollowing, AdaptiveStepsAreLongerThanEulers) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::shape_following_test

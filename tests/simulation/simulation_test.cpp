@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::simulation_test {
 namespace {
 
 VesicleParameters sphere_at(const std::array<double, 3>& centre) {
@@ -176,4 +176,4 @@ TEST(Simulation, StopsWithAdviceWhenTheTensionIsUnstable) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::simulation_test

@@ -12,7 +12,7 @@
 #include "coupling/simulation.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::start_control_test {
 namespace {
 
 /// A deflated prolate across the flow, of which bending makes another shape within a step of 1/24 when the membrane is stiff.
@@ -118,4 +118,4 @@ TEST(StartControl, RefusesWhatIsNoState) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::start_control_test

@@ -14,7 +14,7 @@
 #include "support/small_scene.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::thickness_correction_test {
 namespace {
 
 vesicle::Membrane sphere(double capillary_number, double sigma0) {
@@ -201,4 +201,4 @@ TEST(ThicknessCorrection, IsRefusedWhereInertiaCounts) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::thickness_correction_test

@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::time_integration_test {
 namespace {
 
 void advance(SceneSimulation& simulation, long steps) {
@@ -118,17 +118,17 @@ TEST(TimeIntegration, StrainRelaxationIsStableBeyondTheExplicitLimit) {
 }
 
 TEST(TimeIntegration, WarmedUpStepsAllocateNothing) {
-  if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
+  if (!vesiflow::test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
   for (const Overrides& overrides : {with("strain_relaxation"), Overrides{"membrane.integral_rate=2"},
                                      Overrides{"membrane.area=projection"}, with("arkode")}) {
     if (overrides[0] == "time.markers=arkode" && !have_sundials()) continue;
     SceneSimulation simulation(small_scene(overrides));
     advance(simulation, 4);
-    const long before = test::allocation_count();
+    const long before = vesiflow::test::allocation_count();
     advance(simulation, 2);
-    EXPECT_EQ(test::allocation_count() - before, 0) << overrides[0];
+    EXPECT_EQ(vesiflow::test::allocation_count() - before, 0) << overrides[0];
   }
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::time_integration_test

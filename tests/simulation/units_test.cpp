@@ -12,7 +12,7 @@
 #include "coupling/simulation.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::units_test {
 namespace {
 
 /// The scene in units of which the old ones are `length` and `time`; the viscosity of the outer fluid stays 1.
@@ -121,4 +121,4 @@ TEST(Units, OthersGiveTheSameToRoundOff) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::units_test

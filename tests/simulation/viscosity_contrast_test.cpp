@@ -13,7 +13,7 @@
 #include "support/shape_modes.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::viscosity_contrast_test {
 namespace {
 
 void advance(SceneSimulation& simulation, long steps) {
@@ -210,4 +210,4 @@ TEST(ViscosityContrast, RelaxationOfShapeModesSlowsDownWithTheRatioAsInTheory) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::viscosity_contrast_test

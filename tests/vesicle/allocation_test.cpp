@@ -7,7 +7,7 @@
 #include "vesicle/membrane.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::allocation_test {
 namespace {
 
 TEST(Allocation, AWarmedUpStepAllocatesNothing) {
@@ -34,4 +34,4 @@ TEST(Allocation, AWarmedUpStepAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::allocation_test

@@ -17,7 +17,7 @@
 #include "vesicle/surface_file.h"
 #include "vesicle/triangle_mesh.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::argument_shapes_test {
 namespace {
 
 constexpr int latitudes = 8, other_latitudes = 10;  // of 128 and 200 markers
@@ -262,4 +262,4 @@ TEST_F(ArgumentShapes, OfTriangles) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::argument_shapes_test

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "grid/check_grid.h"
+#include "grid/planes.h"
 #include "message.h"
 
 namespace vesiflow::fluid {
@@ -16,10 +17,6 @@ namespace {
 
 // The two axes along a wall, in increasing order.
 constexpr std::array<std::array<int, 2>, 3> wall_axes{{{1, 2}, {0, 2}, {0, 1}}};
-
-std::ptrdiff_t stride(const View& field, int axis) {
-  return axis == 0 ? 1 : axis == 1 ? field.row_stride : field.plane_stride;
-}
 
 // Ghosts across an axis whose points repeat after a number of cells.
 void repeat_into_ghosts(const View& field, int axis, int period) {

@@ -14,6 +14,12 @@
 
 namespace vesiflow::fluid {
 
+// From a number to the next along an axis of a view.
+template <class View>
+std::ptrdiff_t stride(const View& view, int axis) {
+  return axis == 0 ? 1 : axis == 1 ? view.row_stride : view.plane_stride;
+}
+
 // Below this many numbers a loop takes less time than waking another thread (about 10 microseconds if it sleeps).
 constexpr std::ptrdiff_t min_numbers_for_threads = 16384;
 

@@ -12,10 +12,6 @@
 namespace vesiflow::fluid {
 namespace {
 
-std::ptrdiff_t stride(const ConstView& view, int axis) {
-  return axis == 0 ? 1 : axis == 1 ? view.row_stride : view.plane_stride;
-}
-
 // div u in one cell, from pointers to the velocity at its lower faces.
 struct CellDivergence {
   explicit CellDivergence(const FaceVector& u)

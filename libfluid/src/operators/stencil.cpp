@@ -11,10 +11,6 @@
 namespace vesiflow::fluid {
 namespace {
 
-std::ptrdiff_t stride(const ConstView& view, int axis) {
-  return axis == 0 ? 1 : axis == 1 ? view.row_stride : view.plane_stride;
-}
-
 // Means of the coefficient midway from a point to its upper neighbour along an axis: of the four cells that meet at an
 // edge; of the two on either side of a face or the one whose centre this is, taken twice or four times.
 struct MeanCoefficient {

@@ -11,7 +11,7 @@
 #include "vesicle/shapes.h"
 #include "vesicle/sphere_grid.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::buoyancy_test {
 namespace {
 
 using vesicle::Vector3;
@@ -72,4 +72,4 @@ TEST(Buoyancy, RefusesAForceOfAnotherSize) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::buoyancy_test

@@ -9,7 +9,7 @@
 
 #include "support/allocation_counter.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::close_pairs_test {
 namespace {
 
 using vesicle::Vector3;
@@ -97,4 +97,4 @@ TEST(ClosePairs, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::close_pairs_test

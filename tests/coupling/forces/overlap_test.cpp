@@ -9,7 +9,7 @@
 #include "vesicle/shapes.h"
 #include "vesicle/sphere_grid.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::overlap_test {
 namespace {
 
 using vesicle::Vector3;
@@ -70,4 +70,4 @@ TEST(NearestDistances, OfOneVesicleBetweenWallsAreInfinite) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::overlap_test

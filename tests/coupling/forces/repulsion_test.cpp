@@ -15,7 +15,7 @@
 #include "vesicle/sphere_grid.h"
 #include "vesicle/surface.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::repulsion_test {
 namespace {
 
 using vesicle::ScalarField;
@@ -219,4 +219,4 @@ TEST(Repulsion, RefusesArraysOfDifferentSizes) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::repulsion_test

@@ -10,7 +10,7 @@
 
 #include "motion/constants.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::bdf2_test {
 namespace {
 
 TEST(Bdf2, IsExactForQuadraticsWhateverTheSteps) {
@@ -54,4 +54,4 @@ TEST(Bdf2, NeedsThreeQuartersOfTheTrueRateAndNoMore) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::bdf2_test

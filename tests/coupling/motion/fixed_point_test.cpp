@@ -12,7 +12,7 @@
 
 #include "coupling/marker_integrator.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::fixed_point_test {
 namespace {
 
 // x = b - a x, component by component, with factors that the plain iteration multiplies errors by: up to 3.
@@ -77,4 +77,4 @@ TEST(FixedPoint, ABuildWithoutSundialsSaysSo) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::fixed_point_test

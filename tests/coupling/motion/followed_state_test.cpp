@@ -11,7 +11,7 @@
 #include "motion/following_history.h"
 #include "motion/path_error.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::followed_state_test {
 namespace {
 
 constexpr Eigen::Index markers = 7;
@@ -146,4 +146,4 @@ TEST(PathError, IsNoneOnAParabolaOfUnequalSteps) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::followed_state_test

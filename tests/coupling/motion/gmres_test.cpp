@@ -10,7 +10,7 @@
 
 #include "support/allocation_counter.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::gmres_test {
 namespace {
 
 using Vector = Gmres::Vector;
@@ -133,4 +133,4 @@ TEST(Gmres, ASecondSolveAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::gmres_test

@@ -15,7 +15,7 @@
 #include "motion/flat_coefficients.h"
 #include "support/allocation_counter.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::increment_solver_test {
 namespace {
 
 constexpr int degrees = 10, latitudes = 16, fields = 4;
@@ -142,4 +142,4 @@ TEST_F(IncrementSolverTest, ASecondSolveAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::increment_solver_test

@@ -12,7 +12,7 @@
 
 #include "support/allocation_counter.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::marker_integrator_test {
 namespace {
 
 // Rotation: x' = -y, y' = x from (1, 0); the error at t = 1.
@@ -214,4 +214,4 @@ TEST(MarkerIntegrator, WithoutSundialsArkodeIsRefusedByNameOfTheOption) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::marker_integrator_test

@@ -13,7 +13,7 @@
 #include "vesicle/spherical_harmonics.h"
 #include "vesicle/surface.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::membrane_response_test {
 namespace {
 
 constexpr int degrees = 24;
@@ -241,4 +241,4 @@ TEST(MembraneResponse, IsUpdatedWhenAnythingChanges) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::membrane_response_test

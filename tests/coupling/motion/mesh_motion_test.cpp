@@ -16,7 +16,7 @@
 #include "vesicle/redistribution.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::mesh_motion_test {
 namespace {
 
 using vesicle::Vector3;
@@ -186,4 +186,4 @@ TEST_F(MeshMotionTest, MissingStrainRateKeepsTheUnstrainedArea) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::mesh_motion_test

@@ -7,7 +7,7 @@
 #include "vesicle/shapes.h"
 #include "vesicle/sphere_grid.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::mirror_symmetry_test {
 namespace {
 
 using vesicle::VectorField;
@@ -83,4 +83,4 @@ TEST(MirrorSymmetry, RefusesAMembraneAcrossAPlaneThatIsNotSymmetric) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::mirror_symmetry_test

@@ -12,7 +12,7 @@
 #include "motion/flat_coefficients.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::owed_force_test {
 namespace {
 
 constexpr int degrees = 8, latitudes = 12;
@@ -166,4 +166,4 @@ TEST_F(OwedForceTest, ARestoredOneOwesTheSame) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::owed_force_test

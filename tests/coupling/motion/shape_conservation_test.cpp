@@ -11,7 +11,7 @@
 #include "motion/constants.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::shape_conservation_test {
 namespace {
 
 constexpr int latitudes = 16;
@@ -138,4 +138,4 @@ TEST(MeanStrain, WhatIsHeldIsBoundedAndHasASide) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::shape_conservation_test

@@ -9,7 +9,7 @@
 
 #include "support/shape_modes.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::sphere_response_test {
 namespace {
 
 // Rate at which a mode of an inextensible membrane of radius 1 with bending modulus 0.1 relaxes, for its answer to forces: the
@@ -71,4 +71,4 @@ TEST(SphereResponse, LacksTheKinkOfAVelocityAlong) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::sphere_response_test

@@ -10,7 +10,7 @@
 #include "motion/constants.h"
 #include "motion/surrounding_fluid.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::stiffness_test {
 namespace {
 
 constexpr int degrees = 20;
@@ -123,4 +123,4 @@ TEST(SurroundingFluid, OwesNothingWhereTheSolveHasAllOfTheViscosity) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::stiffness_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <complex>
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::wave_damping_test {
 namespace {
 
 WaveDamping damping_of(int degrees, double radius, double speed) {
@@ -68,4 +68,4 @@ TEST(WaveDamping, IsSubtractedDegreeByDegree) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::wave_damping_test

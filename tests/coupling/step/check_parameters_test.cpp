@@ -13,7 +13,7 @@
 #include "coupling/parameter_table.h"
 #include "coupling/simulation.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::check_parameters_test {
 namespace {
 
 SimulationParameters one_vesicle() {
@@ -101,4 +101,4 @@ TEST(CheckParameters, FlowsThatDoNotFitTheDomainAreRefused) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::check_parameters_test

@@ -7,7 +7,7 @@
 #include "coupling/flow.h"
 #include "coupling/simulation.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::own_forces_test {
 namespace {
 
 SimulationParameters sphere_between_walls() {
@@ -65,4 +65,4 @@ TEST(OwnForces, ThereMustBeAFunction) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::own_forces_test

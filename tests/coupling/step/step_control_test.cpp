@@ -9,7 +9,7 @@
 
 #include "coupling/flow.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::step_control_test {
 namespace {
 
 SimulationParameters adaptive_steps() {
@@ -123,4 +123,4 @@ TEST(StepControl, GoesOnFromItsState) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::step_control_test

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::delta_kernel_test {
 namespace {
 
 constexpr Direction directions[] = {Direction::normal, Direction::tangential};
@@ -359,4 +359,4 @@ TEST(DeltaKernel, ThickeningIsTheMeanDistanceOfTwoPointsUnderTheTangentialFuncti
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::delta_kernel_test

@@ -21,7 +21,7 @@
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::divergence_preserving_test {
 namespace {
 
 using vesicle::ScalarField;
@@ -260,4 +260,4 @@ TEST(DivergencePreserving, MarkersThatMoveWithTheFluidKeepTheirVolume) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::divergence_preserving_test

@@ -13,7 +13,7 @@
 #include "transfer/ellipsoid.h"
 #include "vesicle/point_evaluation.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::grid_band_test {
 namespace {
 
 using fluid::Centring;
@@ -149,4 +149,4 @@ TEST(GridBand, AllocatesNothingWhereABodyMoves) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::grid_band_test

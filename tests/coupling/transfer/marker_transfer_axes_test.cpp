@@ -12,10 +12,11 @@
 #include "support/allocation_counter.h"
 #include "transfer_support.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::marker_transfer_axes_test {
 namespace {
 
 using namespace test;
+using namespace test::letters;
 
 struct Loads {
   explicit Loads(Eigen::Index count)
@@ -430,4 +431,4 @@ TEST(MarkerTransferAxes, RefusesBoxesItCannotServe) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::marker_transfer_axes_test

@@ -9,7 +9,7 @@
 
 #include "coupling/errors.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::marker_transfer_test {
 namespace {
 
 using vesicle::ScalarField;
@@ -187,4 +187,4 @@ TEST(MarkerTransfer, ArraysOfAWrongSizeAreRefused) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::marker_transfer_test

@@ -11,7 +11,7 @@
 #include "transfer/sharp_body.h"
 #include "transfer/sharp_transfer.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::sharp_accuracy_test {
 namespace {
 
 using test::SharpBody;
@@ -68,4 +68,4 @@ TEST(SharpAccuracy, IsFarAboveThatOfADeltaFunction) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::sharp_accuracy_test

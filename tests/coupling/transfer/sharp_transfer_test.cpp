@@ -13,7 +13,7 @@
 #include "transfer/sharp_body.h"
 #include "transfer/transfer_support.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::sharp_transfer_test {
 namespace {
 
 using test::Ellipsoid;
@@ -322,4 +322,4 @@ TEST(SharpTransfer, AllocatesNothingOnceWarmedUp) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::sharp_transfer_test

@@ -38,9 +38,12 @@ struct Box {
   }
 };
 
+/// How an axis is written in tests.
+namespace letters {
 inline constexpr AxisKind w = AxisKind::walls, p = AxisKind::periodic, m = AxisKind::mirror;
-inline constexpr Box boxes[] = {{{w, w, w}}, {{p, w, w}}, {{w, p, p}}, {{p, p, p}},
-                                {{m, w, w}}, {{p, m, p}}, {{w, m, m}}, {{m, m, m}}};
+inline constexpr std::array<Box, 8> boxes{
+    {{{w, w, w}}, {{p, w, w}}, {{w, p, p}}, {{p, p, p}}, {{m, w, w}}, {{p, m, p}}, {{w, m, m}}, {{m, m, m}}}};
+}  // namespace letters
 
 /// Markers wherever the box allows them: up to the walls' limits, in several periodic boxes, on both sides of mirrors; the
 /// first ones on special positions (points, half points, a mirror plane, the seam of a periodic axis).
@@ -51,13 +54,13 @@ inline VectorField markers_in(const Box& box, DeltaKernel kernel, int count) {
   VectorField x(count, 3);
   for (int axis = 0; axis < 3; ++axis) {
     const double n = grid.cells[axis], d = wall_clearance(kernel);
-    const double low = box.is(axis, w) ? d : box.is(axis, p) ? -2.0 * n : d - n;
-    const double high = box.is(axis, p) ? 3.0 * n : n - d;
+    const double low = box.is(axis, letters::w) ? d : box.is(axis, letters::p) ? -2.0 * n : d - n;
+    const double high = box.is(axis, letters::p) ? 3.0 * n : n - d;
     for (int i = 0; i < count; ++i) {
       double s = low + unit(generator) * (high - low);
       if (i < 12 && (i + axis) % 3 == 0) s = 0.5 * std::floor(2.0 * s);
-      if (i < 12 && (i + axis) % 3 == 1) s = box.is(axis, w) ? 0.5 * n : 0.5 * (i / 3);
-      if (!box.is(axis, p)) s = std::clamp(s, low + 1e-9, high - 1e-9);
+      if (i < 12 && (i + axis) % 3 == 1) s = box.is(axis, letters::w) ? 0.5 * n : 0.5 * (i / 3);
+      if (!box.is(axis, letters::p)) s = std::clamp(s, low + 1e-9, high - 1e-9);
       x(i, axis) = grid.lower[axis] + s * grid.spacing(axis);
     }
   }

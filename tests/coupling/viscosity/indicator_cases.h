@@ -14,7 +14,7 @@
 namespace vesiflow::coupling::test {
 
 /// An ellipsoid with axes along x, y and z, for which inside and outside are known; a sphere if they are equal.
-struct Ellipsoid {
+struct SolidEllipsoid {
   std::array<double, 3> semi_axes{1.0, 1.0, 1.0};
   std::array<double, 3> centre{0.0, 0.0, 0.0};
 
@@ -53,8 +53,8 @@ struct IndicatorErrors {
   double limited_volume = 0.0;  ///< the same of I limited to [0, 1]
 };
 
-inline IndicatorErrors indicator_errors(const fluid::Field<fluid::Cell>& field, const Ellipsoid& shape, double area,
-                                        double away) {
+inline IndicatorErrors indicator_errors(const fluid::Field<fluid::Cell>& field, const SolidEllipsoid& shape,
+                                        double area, double away) {
   IndicatorErrors e;
   double sum = 0.0, limited = 0.0;
   const double cell = field.grid().cell_volume();

@@ -11,16 +11,16 @@
 #include "indicator_cases.h"
 #include "support/allocation_counter.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::indicator_test {
 namespace {
 
-using test::Ellipsoid;
 using test::indicator_errors;
 using test::IndicatorErrors;
+using test::SolidEllipsoid;
 
 using Field = fluid::Field<fluid::Cell>;
 
-const Ellipsoid ellipsoid{{0.7, 1.0, 1.6}, {0.03, 0.02, -0.04}};
+const SolidEllipsoid ellipsoid{{0.7, 1.0, 1.6}, {0.03, 0.02, -0.04}};
 
 fluid::Grid box(int cells, const std::array<bool, 3>& periodic = {false, false, false}) {
   return {{-3, -3, -3}, {3, 3, 3}, {cells, cells, cells}, {.periodic = periodic}};
@@ -71,7 +71,7 @@ TEST(Indicator, EquationKnowsTheVolume) {
 
 // Outside the delta functions the kernel's second moment sees a harmonic function: at least second order.
 TEST(Indicator, ConvergesAwayFromTheMembrane) {
-  for (const Ellipsoid& shape : {Ellipsoid{{1, 1, 1}, {0.03, 0.02, -0.04}}, ellipsoid}) {
+  for (const SolidEllipsoid& shape : {SolidEllipsoid{{1, 1, 1}, {0.03, 0.02, -0.04}}, ellipsoid}) {
     std::array<IndicatorErrors, 2> e;
     for (int i = 0; i < 2; ++i) {
       const int cells = i == 0 ? 24 : 48;
@@ -103,7 +103,7 @@ TEST(Indicator, HardlyDependsOnWhereTheMembraneLiesInTheGrid) {
   const double h = grid.spacing(0);
   double least = 1e300, greatest = 0.0;
   for (const double shift : {0.0, 0.25, 0.5, 0.8}) {
-    const Ellipsoid shape{{0.7, 1.0, 1.6}, {shift * h, 0.7 * shift * h, -0.4 * shift * h}};
+    const SolidEllipsoid shape{{0.7, 1.0, 1.6}, {shift * h, 0.7 * shift * h, -0.4 * shift * h}};
     const vesicle::Surface surface = shape.surface(32);
     const IndicatorErrors e = indicator_errors(indicator_of(grid, surface), shape, surface.area(), 0.75);
     least = std::min(least, e.mean);
@@ -112,7 +112,7 @@ TEST(Indicator, HardlyDependsOnWhereTheMembraneLiesInTheGrid) {
   EXPECT_LT(greatest / least, 1.02);
 
   // By a whole cell it moves along exactly, but for what the walls send back.
-  const Ellipsoid here{{0.7, 1.0, 1.6}, {0, 0, 0}}, there{{0.7, 1.0, 1.6}, {h, 0, 0}};
+  const SolidEllipsoid here{{0.7, 1.0, 1.6}, {0, 0, 0}}, there{{0.7, 1.0, 1.6}, {h, 0, 0}};
   const Field a = indicator_of(grid, here.surface(32)), b = indicator_of(grid, there.surface(32));
   double difference = 0.0;
   for (int k = 0; k < 32; ++k)
@@ -123,7 +123,7 @@ TEST(Indicator, HardlyDependsOnWhereTheMembraneLiesInTheGrid) {
 
 TEST(Indicator, OneSolveIsForAllMembranes) {
   const fluid::Grid grid = box(24);
-  const Ellipsoid one{{0.6, 0.6, 0.8}, {-1.2, 0, 0}}, two{{0.7, 0.9, 0.7}, {1.1, 0.2, 0.1}};
+  const SolidEllipsoid one{{0.6, 0.6, 0.8}, {-1.2, 0, 0}}, two{{0.7, 0.9, 0.7}, {1.1, 0.2, 0.1}};
   const vesicle::Surface first = one.surface(16), second = two.surface(20);
   Indicator indicator(grid, 3);
   Field both(grid);
@@ -183,4 +183,4 @@ TEST(Indicator, RefusesAFieldOnAnotherGrid) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::indicator_test

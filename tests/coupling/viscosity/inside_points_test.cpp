@@ -14,7 +14,7 @@
 #include "transfer/grid_band.h"
 #include "vesicle/surface.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::inside_points_test {
 namespace {
 
 using Vector = Eigen::Vector3d;
@@ -147,4 +147,4 @@ TEST(InsidePoints, ABodyBetweenThePointsHasNone) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::inside_points_test

@@ -9,7 +9,7 @@
 #include "transfer/ellipsoid.h"
 #include "transfer/sharp_body.h"
 
-namespace vesiflow::coupling {
+namespace vesiflow::coupling::interface_velocity_test {
 namespace {
 
 using test::Ellipsoid;
@@ -185,4 +185,4 @@ TEST(TwoViscosities, AnInextensibleSphereSinksAsARigidOne) {
 }
 
 }  // namespace
-}  // namespace vesiflow::coupling
+}  // namespace vesiflow::coupling::interface_velocity_test

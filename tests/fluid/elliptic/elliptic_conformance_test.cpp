@@ -14,7 +14,7 @@
 #include "test_problems.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::elliptic_conformance_test {
 namespace {
 
 using test::Kind;
@@ -369,4 +369,4 @@ INSTANTIATE_TEST_SUITE_P(Backends, SharedField, testing::ValuesIn(backends),
                          [](const auto& backend) { return std::string(backend.param.name); });
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::elliptic_conformance_test

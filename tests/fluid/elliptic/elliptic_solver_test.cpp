@@ -15,7 +15,7 @@
 #include "test_fields.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::elliptic_solver_test {
 namespace {
 
 using testing::HasSubstr;
@@ -144,4 +144,4 @@ TEST(ChooseSolver, RefusesAFieldThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::elliptic_solver_test

@@ -12,7 +12,7 @@
 #include "fluid/operators.h"
 #include "test_fields.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::boundary_test {
 namespace {
 
 using testing::HasSubstr;
@@ -126,4 +126,4 @@ TEST(WallVelocity, SamplesSteadyDataOnceAndOtherDataAtEachNewTime) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::boundary_test

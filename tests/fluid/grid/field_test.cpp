@@ -10,7 +10,7 @@
 #include "fluid/operators.h"
 #include "test_fields.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::field_test {
 namespace {
 
 const Grid grid({0.0, -1.0, 0.0}, {1.0, 1.0, 3.0}, {5, 4, 6});
@@ -61,4 +61,4 @@ TEST(Field, CloneIsEqualAndApart) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::field_test

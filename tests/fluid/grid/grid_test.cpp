@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::grid_test {
 namespace {
 
 using testing::HasSubstr;
@@ -60,4 +60,4 @@ TEST(Grid, RefusesAPeriodicMirrorAndNamesTheAxis) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::grid_test

@@ -17,7 +17,7 @@
 #include "operators/step_passes.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::mirror_test {
 namespace {
 
 using test::part_of_box;
@@ -258,4 +258,4 @@ TEST(MirrorOfWalls, CountsTheFluxThroughWallsAlone) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::mirror_test

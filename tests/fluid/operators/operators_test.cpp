@@ -11,7 +11,7 @@
 #include "test_fields.h"
 #include "test_problems.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::operators_test {
 namespace {
 
 const std::array<Grid, 3> grids{Grid({0, 0, 0}, {1, 1, 1}, {8, 8, 8}), Grid({0, -1, 0}, {1, 2, 5}, {7, 5, 11}),
@@ -112,4 +112,4 @@ TEST(Operators, FieldsOfDifferentGridsAreRefused) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::operators_test

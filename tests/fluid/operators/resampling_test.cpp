@@ -9,7 +9,7 @@
 #include "fluid/navier_stokes.h"
 #include "fluid/operators.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::resampling_test {
 namespace {
 
 constexpr double untouched = 77.0;
@@ -108,4 +108,4 @@ TEST(Resampling, AFluidStartsFromTheDivergenceFreePart) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::resampling_test

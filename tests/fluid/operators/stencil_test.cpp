@@ -12,7 +12,7 @@
 #include "fluid/operators.h"
 #include "test_problems.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::stencil_test {
 namespace {
 
 using test::Numbers;
@@ -241,4 +241,4 @@ TEST(VariableOperators, AgreeWithTheConstantOnes) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::stencil_test

@@ -11,7 +11,7 @@
 
 #include "fluid/elliptic_solver.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::viscosity_test {
 namespace {
 
 using testing::AllOf;
@@ -88,4 +88,4 @@ TEST(Viscosity, AFieldOfAnotherGridIsRefused) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::viscosity_test

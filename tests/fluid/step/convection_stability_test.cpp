@@ -9,7 +9,7 @@
 #include "fluid/navier_stokes.h"
 #include "test_fields.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::convection_stability_test {
 namespace {
 
 // Shear waves v(x) in a uniform stream, of all lengths that the periodic grid has: largest |v| after so many steps.
@@ -56,4 +56,4 @@ TEST(StableConvectionStep, IsInfiniteWithoutConvection) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::convection_stability_test

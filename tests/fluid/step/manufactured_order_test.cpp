@@ -8,7 +8,7 @@
 
 #include "manufactured_flow.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::manufactured_order_test {
 namespace {
 
 using test::FlowErrors;
@@ -104,4 +104,4 @@ TEST(NavierStokesOrder, IsTwoWithVariableViscosityImplicit) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::manufactured_order_test

@@ -12,7 +12,7 @@
 #include "manufactured_flow.h"
 #include "test_problems.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_boundaries_test {
 namespace {
 
 using testing::HasSubstr;
@@ -167,4 +167,4 @@ TEST(WallVelocity, AllowsRoundOffOfFastWallsAtTheEndsOfAPeriodicAxis) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_boundaries_test

@@ -18,7 +18,7 @@
 #include "test_problems.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_divergence_test {
 namespace {
 
 using test::FlowWithDivergence;
@@ -429,4 +429,4 @@ TEST(SolveAgain, SaysInWhichStepItFailed) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_divergence_test

@@ -10,7 +10,7 @@
 #include "fluid/operators.h"
 #include "manufactured_flow.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_failure_test {
 namespace {
 
 using testing::HasSubstr;
@@ -159,4 +159,4 @@ TEST(Grid, ThatIsTooLargeIsRefusedBeforeAnythingIsAllocated) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_failure_test

@@ -15,7 +15,7 @@
 #include "support/allocation_counter.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_mirror_test {
 namespace {
 
 using test::part_of_box;
@@ -243,4 +243,4 @@ TEST(NavierStokesWithMirrors, ContinuesARestoredStateBitForBit) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_mirror_test

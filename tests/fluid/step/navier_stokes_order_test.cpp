@@ -12,7 +12,7 @@
 #include "fluid/navier_stokes.h"
 #include "test_fields.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_order_test {
 namespace {
 
 using std::numbers::pi;
@@ -215,4 +215,4 @@ TEST(NavierStokesOrder, InTimeWithVariableViscosityDependsOnItsTreatment) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_order_test

@@ -11,7 +11,7 @@
 #include "fluid/navier_stokes.h"
 #include "test_fields.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_retry_test {
 namespace {
 
 const Grid grid({0, -1, 0}, {1, 2, 5}, {8, 9, 10});
@@ -96,4 +96,4 @@ TEST(NavierStokesRetry, RefusesWhatIsNotRemembered) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_retry_test

@@ -10,7 +10,7 @@
 #include "test_problems.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_stokes_test {
 namespace {
 
 // Of the unsteady equations at rest in time, and of Stokes flow, the solution is the same.
@@ -79,4 +79,4 @@ TEST(WithoutInertia, RestoredRunContinuesBitForBitAndStepsAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_stokes_test

@@ -15,7 +15,7 @@
 #include "test_fields.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_test {
 namespace {
 
 using testing::HasSubstr;
@@ -258,4 +258,4 @@ TEST(NavierStokes, StopsWithTheStepAndTheTimeWhenAForceIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_test

@@ -12,7 +12,7 @@
 #include "support/allocation_counter.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::navier_stokes_viscosity_test {
 namespace {
 
 using testing::HasSubstr;
@@ -191,4 +191,4 @@ TEST(VariableViscosity, SolverThatCannotIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::navier_stokes_viscosity_test

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::duct_series_test {
 namespace {
 
 struct Point {
@@ -76,4 +76,4 @@ TEST(DuctSeries, RefusesImpossibleWidths) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::duct_series_test

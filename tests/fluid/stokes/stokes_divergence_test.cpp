@@ -17,7 +17,7 @@
 #include "support/allocation_counter.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::stokes_divergence_test {
 namespace {
 
 using testing::HasSubstr;
@@ -257,4 +257,4 @@ TEST(StokesDivergence, RefusesASourceThatCannotBe) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::stokes_divergence_test

@@ -17,7 +17,7 @@
 #include "test_fields.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::stokes_test {
 namespace {
 
 using std::numbers::pi;
@@ -474,4 +474,4 @@ TEST(Stokes, RefusesWhatCannotBeSolved) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::stokes_test

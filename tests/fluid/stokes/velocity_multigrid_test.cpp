@@ -15,7 +15,7 @@
 #include "stokes/saddle_vector.h"
 #include "test_problems.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::velocity_multigrid_test {
 namespace {
 
 const test::Topology topologies[] = {{}, {.periodic = 5}, {.periodic = 7}, {.mirror = 6}, {.periodic = 4, .mirror = 1}};
@@ -186,4 +186,4 @@ TEST(VelocityMultigrid, CyclesConverge) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::velocity_multigrid_test

@@ -11,7 +11,7 @@
 
 #include "run/errors.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::atomic_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ TEST_F(AtomicFile, NamesTheFileAndTheSystemsReason) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::atomic_file_test

@@ -17,7 +17,7 @@
 #include "run/errors.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::checkpoint_contents_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -178,4 +178,4 @@ TEST_F(CheckpointContents, OnlyInterfacesOfTwoViscositiesHaveAVelocity) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::checkpoint_contents_test

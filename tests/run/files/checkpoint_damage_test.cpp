@@ -18,7 +18,7 @@
 #include "run/errors.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::checkpoint_damage_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -203,4 +203,4 @@ TEST_F(CheckpointDamage, WrittenAgainItIsTheSameFile) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::checkpoint_damage_test

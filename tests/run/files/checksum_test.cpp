@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vesiflow::run {
+namespace vesiflow::run::checksum_test {
 namespace {
 
 std::uint64_t sum_of(const auto&... values) {
@@ -59,4 +59,4 @@ TEST(Checksum, TellsBitsAndZeros) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::checksum_test

@@ -29,7 +29,7 @@ extern "C" int flock(int descriptor, int operation) noexcept {
   return -1;
 }
 
-namespace vesiflow::run {
+namespace vesiflow::run::file_locks_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -98,4 +98,4 @@ TEST_F(FileLocks, WhereAskedForAreNamedAsTheCauseWithTheWayOut) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::file_locks_test

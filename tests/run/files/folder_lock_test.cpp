@@ -41,7 +41,7 @@ extern "C" int nanosleep(const timespec* duration, timespec* left) {
   return static_cast<int>(syscall(SYS_nanosleep, duration, left));
 }
 
-namespace vesiflow::run {
+namespace vesiflow::run::folder_lock_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -321,4 +321,4 @@ TEST_F(FolderLockTest, StaysWithItsFolderWhereverTheProcessGoes) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::folder_lock_test

@@ -11,7 +11,7 @@
 
 #include "run/errors.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::snapshot_series_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -188,4 +188,4 @@ TEST_F(Snapshots, OfEarlierVersionsAreRefusedAndKept) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::snapshot_series_test

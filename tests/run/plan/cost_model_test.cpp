@@ -11,7 +11,7 @@
 #include "run/plan.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::cost_model_test {
 namespace {
 
 std::map<std::string, PhaseCost> costs_of(const Scene& scene) {
@@ -208,4 +208,4 @@ TEST(CostModel, OutputCostsWhatItsIntervalSays) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::cost_model_test

@@ -9,7 +9,7 @@
 #include "run/plan.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::memory_plan_test {
 namespace {
 
 Scene without_output(int cells, int latitudes, std::size_t vesicles) {
@@ -57,4 +57,4 @@ TEST(MemoryWarning, NamesWhatASceneTakesAndWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::memory_plan_test

@@ -11,7 +11,7 @@
 #include "run/run.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::plan_totals_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,4 +59,4 @@ TEST(PlanTotals, OutputTakesAsMuchAsPlanned) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::plan_totals_test

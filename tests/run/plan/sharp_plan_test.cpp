@@ -14,7 +14,7 @@
 #include "run/plan.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::sharp_plan_test {
 namespace {
 
 Scene sharp(std::initializer_list<std::string> more) {
@@ -175,4 +175,4 @@ TEST(SharpPlan, TakesWithinATenthAsMuchMoreMemoryAsWasMeasured) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::sharp_plan_test

@@ -14,7 +14,7 @@
 #include "run/run_in_folder.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::end_of_run_test {
 namespace {
 
 using coupling::SimulationStopped, coupling::small_scene;
@@ -88,4 +88,4 @@ TEST(ExitCode, IsThatOfMemoryWhereMemoryRanOut) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::end_of_run_test

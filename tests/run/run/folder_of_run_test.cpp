@@ -15,7 +15,7 @@
 #include "run/run_in_folder.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::folder_of_run_test {
 namespace {
 
 using coupling::small_scene, coupling::three_vesicles;
@@ -111,4 +111,4 @@ TEST_F(FolderOfRun, WritesWhereItBeganThoughTheProcessMoves) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::folder_of_run_test

@@ -25,7 +25,7 @@
 #include "run/run.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::host_settings_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST_F(HostSettings, ADecimalCommaChangesNoFile) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::host_settings_test

@@ -13,7 +13,7 @@
 #include "run/run_in_folder.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::restart_files_test {
 namespace {
 
 using coupling::small_scene, coupling::three_vesicles;
@@ -116,4 +116,4 @@ TEST_F(RestartFiles, RefusesAVesicleWithAnotherPropertyOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::restart_files_test

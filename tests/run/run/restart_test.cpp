@@ -14,7 +14,7 @@
 #include "run/run_in_folder.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::restart_test {
 namespace {
 
 using coupling::have_sundials, coupling::small_scene, coupling::three_vesicles;
@@ -237,4 +237,4 @@ TEST_F(Restart, ContinuesBitForBitWithAdaptiveSteps) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::restart_test

@@ -18,7 +18,7 @@
 #include "run/run_in_folder.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::run_files_test {
 namespace {
 
 using coupling::small_scene;
@@ -190,4 +190,4 @@ TEST_F(RunFiles, WritesDiagnosticsOfAProgramsOwn) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::run_files_test

@@ -8,7 +8,7 @@
 
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::run_quality_test {
 namespace {
 
 /// Three vesicles whose measures the test makes up.
@@ -108,4 +108,4 @@ TEST(RunQuality, EstimatesTheErrorOfDeltaFunctionsOnly) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::run_quality_test

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace vesiflow::run {
+namespace vesiflow::run::shell_words_test {
 namespace {
 
 std::string line_of(std::vector<std::string> words) {
@@ -31,4 +31,4 @@ TEST(ShellWords, AreWhatAShellMakesOfTheLine) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::shell_words_test

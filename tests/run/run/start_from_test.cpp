@@ -19,7 +19,7 @@
 #include "run/run.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::start_from_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -268,4 +268,4 @@ TEST_F(StartFrom, WhatDoesNotFitIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::start_from_test

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace vesiflow::run {
+namespace vesiflow::run::stop_request_test {
 namespace {
 
 using Handler = void (*)(int);
@@ -85,4 +85,4 @@ TEST(StopRequest, OfSeveralRunsEndsWithTheLast) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::stop_request_test

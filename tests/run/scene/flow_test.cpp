@@ -11,7 +11,7 @@
 #include "run/errors.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::flow_test {
 namespace {
 
 using fluid::Vector3;
@@ -120,4 +120,4 @@ TEST(Flow, ThatOnlyAProgramKnowsIsRefused) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::flow_test

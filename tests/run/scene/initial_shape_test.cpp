@@ -21,7 +21,7 @@
 #include "vesicle/surface_file.h"
 #include "vesicle/triangle_mesh_file.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::initial_shape_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -325,4 +325,4 @@ TEST_F(InitialShapeTest, RestartFromTheCheckpointAloneNeedsNoFile) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::initial_shape_test

@@ -10,7 +10,7 @@
 #include "run/errors.h"
 #include "support/small_scene.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::scene_simulation_test {
 namespace {
 
 // Of a scene that a program has filled in; with the scene's own flow, or with another one.
@@ -77,4 +77,4 @@ TEST(SceneSimulation, NeedsAFlowOfTheProgramWhereTheSceneHasNone) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::scene_simulation_test

@@ -14,7 +14,7 @@
 #include "run/errors.h"
 #include "run/plan.h"
 
-namespace vesiflow::run {
+namespace vesiflow::run::scene_test {
 namespace {
 
 const std::string sphere = "[[vesicles]]\nshape = \"sphere\"\n";
@@ -467,4 +467,4 @@ TEST(Scene, WhatAProgramFillsInIsCheckedAsAFileIs) {
 }
 
 }  // namespace
-}  // namespace vesiflow::run
+}  // namespace vesiflow::run::scene_test

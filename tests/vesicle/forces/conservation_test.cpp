@@ -9,7 +9,7 @@
 #include "support.h"
 #include "vesicle/area.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::conservation_test {
 namespace {
 
 using testing::smooth_vector;
@@ -248,4 +248,4 @@ TEST(ConservationProjection, SaysWhenCorrectionsDiverge) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::conservation_test

@@ -10,7 +10,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::diagnostics_test {
 namespace {
 
 using std::numbers::pi;
@@ -174,4 +174,4 @@ TEST(Diagnostics, OfAMembraneTurnedInsideOut) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::diagnostics_test

@@ -11,7 +11,7 @@
 #include "vesicle/tension.h"
 #include "vesicle/volume.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::forces_test {
 namespace {
 
 using testing::cross;
@@ -225,4 +225,4 @@ TEST_F(Forces, AreaRateRefusesAVelocityThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::forces_test

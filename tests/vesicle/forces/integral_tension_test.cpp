@@ -10,7 +10,7 @@
 #include "vesicle/membrane.h"
 #include "vesicle/tension.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::integral_tension_test {
 namespace {
 
 constexpr int latitudes = 20;
@@ -145,4 +145,4 @@ TEST(IntegralTension, RefusesBadArguments) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::integral_tension_test

@@ -9,7 +9,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::membrane_test {
 namespace {
 
 constexpr int latitudes = 20;
@@ -236,4 +236,4 @@ TEST(Membrane, ARefusedStateChangesNothing) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::membrane_test

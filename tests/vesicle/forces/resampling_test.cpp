@@ -6,7 +6,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::resampling_test {
 namespace {
 
 TEST(Resampling, UpAndDownAreInverse) {
@@ -74,4 +74,4 @@ TEST(Resampling, AMembraneKeepsItsErrorsAndItsStrain) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::resampling_test

@@ -9,7 +9,7 @@
 #include "support.h"
 #include "support/allocation_counter.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::coefficients_test {
 namespace {
 
 using testing::random_coefficients;
@@ -117,4 +117,4 @@ TEST(Coefficients, RefusesBadShapes) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::coefficients_test

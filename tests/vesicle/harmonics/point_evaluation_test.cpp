@@ -10,7 +10,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::point_evaluation_test {
 namespace {
 
 using testing::random_coefficients;
@@ -126,4 +126,4 @@ TEST(PointEvaluation, RefusesDirectionsThatAreNotANumber) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::point_evaluation_test

@@ -6,7 +6,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::scale_degrees_test {
 namespace {
 
 using testing::random_coefficients;
@@ -34,4 +34,4 @@ TEST(ScaleDegrees, MultipliesFieldsByNumbersOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::scale_degrees_test

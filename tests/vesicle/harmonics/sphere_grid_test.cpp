@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::sphere_grid_test {
 namespace {
 
 using std::numbers::pi;
@@ -68,4 +68,4 @@ TEST(SphereGrid, RefusesNumbersBeyondItsRange) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::sphere_grid_test

@@ -15,7 +15,7 @@
 #include <omp.h>
 #endif
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::spherical_harmonics_adjoint_test {
 namespace {
 
 using testing::random_coefficients;
@@ -215,4 +215,4 @@ TEST(Threads, ChangeNoBit) {
 #endif
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::spherical_harmonics_adjoint_test

@@ -9,7 +9,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::spherical_harmonics_test {
 namespace {
 
 using testing::point_value;
@@ -214,4 +214,4 @@ TEST(SphericalHarmonics, RefusesBadArguments) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::spherical_harmonics_test

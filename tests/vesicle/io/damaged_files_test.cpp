@@ -19,7 +19,7 @@
 #include "vesicle/surface_file.h"
 #include "vesicle/triangle_mesh_file.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::damaged_files_test {
 namespace {
 
 using testing::TextFile;
@@ -178,4 +178,4 @@ TEST_P(DamagedMeshes, AreReadOrRefused) {
 INSTANTIATE_TEST_SUITE_P(Formats, DamagedMeshes, ::testing::Values("obj", "off", "ply", "stl"));
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::damaged_files_test

@@ -11,7 +11,7 @@
 #include "support.h"
 #include "text_file.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::surface_file_test {
 namespace {
 
 using testing::TextFile;
@@ -98,4 +98,4 @@ TEST(SurfaceFile, RefusesToWriteWhatItCouldNotReadBack) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::surface_file_test

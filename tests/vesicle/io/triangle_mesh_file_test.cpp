@@ -16,7 +16,7 @@
 #include "meshes.h"
 #include "text_file.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::triangle_mesh_file_test {
 namespace {
 
 using testing::complaint_about;
@@ -315,4 +315,4 @@ TEST(TriangleMeshFile, RefusesOtherFormatsByTheirName) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::triangle_mesh_file_test

@@ -19,7 +19,7 @@
 #include "vesicle/scale_degrees.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::kept_degrees_test {
 namespace {
 
 constexpr int latitudes = 24;
@@ -218,4 +218,4 @@ TEST_F(KeptDegrees, WrongArgumentsAreRefused) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::kept_degrees_test

@@ -13,7 +13,7 @@
 #include "support.h"
 #include "vesicle/shapes.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::membrane_jumps_test {
 namespace {
 
 using testing::ExactJumps;
@@ -255,4 +255,4 @@ TEST(MembraneJumps, AreLinearInForceAndVelocityJump) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::membrane_jumps_test

@@ -9,7 +9,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::mesh_control_test {
 namespace {
 
 using testing::cross;
@@ -187,4 +187,4 @@ TEST(TargetAreaUpdate, RefusesWhatWouldNotBeFinite) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::mesh_control_test

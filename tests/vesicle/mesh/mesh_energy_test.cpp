@@ -8,7 +8,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::mesh_energy_test {
 namespace {
 
 using testing::random_coefficients;
@@ -130,4 +130,4 @@ TEST(MeshEnergyDescent, RefusesAMetricThatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::mesh_energy_test

@@ -11,7 +11,7 @@
 #include "vesicle/diagnostics.h"
 #include "vesicle/membrane.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::redistribution_test {
 namespace {
 
 constexpr int latitudes = 32;
@@ -250,4 +250,4 @@ TEST(MeshRedistribution, LeavesAnUnresolvedSurfaceAlone) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::redistribution_test

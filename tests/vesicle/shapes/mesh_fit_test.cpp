@@ -16,7 +16,7 @@
 #include "support.h"
 #include "vesicle/diagnostics.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::mesh_fit_test {
 namespace {
 
 using testing::mapped;
@@ -216,4 +216,4 @@ TEST(MeshFit, LooksForCrossingsAlongTheLongestAxis) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::mesh_fit_test

@@ -13,7 +13,7 @@
 #include "vesicle/diagnostics.h"
 #include "vesicle/surface.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::shapes_test {
 namespace {
 
 using std::numbers::pi;
@@ -251,4 +251,4 @@ TEST(Shapes, RefuseNumbersThatWouldOverflow) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::shapes_test

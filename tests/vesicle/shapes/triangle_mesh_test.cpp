@@ -10,7 +10,7 @@
 
 #include "meshes.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::triangle_mesh_test {
 namespace {
 
 using testing::joined;
@@ -135,4 +135,4 @@ TEST(TriangleMesh, OtherTopologiesAreNamed) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::triangle_mesh_test

@@ -8,7 +8,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::laplace_beltrami_test {
 namespace {
 
 using testing::EllipsoidPoint;
@@ -198,4 +198,4 @@ TEST(LaplaceBeltrami, RefusesAnotherMesh) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::laplace_beltrami_test

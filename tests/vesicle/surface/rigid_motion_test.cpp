@@ -10,7 +10,7 @@
 
 #include "support.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::rigid_motion_test {
 namespace {
 
 using std::numbers::pi;
@@ -123,4 +123,4 @@ TEST(RigidMotion, RefusesBadArguments) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::rigid_motion_test

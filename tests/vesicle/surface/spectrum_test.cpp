@@ -10,7 +10,7 @@
 #include "support.h"
 #include "vesicle/upsampling.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::spectrum_test {
 namespace {
 
 /// Amplitude 3 exp(-rate n) in every `stride`-th degree.
@@ -183,4 +183,4 @@ TEST(Resolution, DoesNotDependOnTheUnitOfLength) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::spectrum_test

@@ -11,7 +11,7 @@
 #include "support.h"
 #include "vesicle/bending.h"
 
-namespace vesiflow::vesicle {
+namespace vesiflow::vesicle::surface_test {
 namespace {
 
 using std::numbers::pi;
@@ -176,4 +176,4 @@ TEST(Surface, RefusesNumbersOfLatitudesBeyondItsRange) {
 }
 
 }  // namespace
-}  // namespace vesiflow::vesicle
+}  // namespace vesiflow::vesicle::surface_test

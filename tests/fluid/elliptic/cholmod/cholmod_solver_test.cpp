@@ -24,7 +24,7 @@
 #include "test_problems.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::cholmod_solver_test {
 namespace {
 
 using test::Numbers;
@@ -375,5 +375,5 @@ TEST_F(BlasThreads, AHostMayUseBlasWhileWeFactor) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::cholmod_solver_test
 #endif

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::column_solver_test {
 namespace {
 
 using Real = long double;
@@ -116,4 +116,4 @@ INSTANTIATE_TEST_SUITE_P(Ends, Columns,
                          case_name);
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::column_solver_test

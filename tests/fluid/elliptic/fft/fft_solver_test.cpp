@@ -16,7 +16,7 @@
 #include "test_problems.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::fft_solver_test {
 namespace {
 
 using Transforms = FftOptions::Transforms;
@@ -269,4 +269,4 @@ TEST(FftSolver, IsAccurateIfOnlyWallsInZHoldTheSolution) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::fft_solver_test

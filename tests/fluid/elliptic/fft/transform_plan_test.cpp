@@ -17,7 +17,7 @@
 #include "elliptic/fft/lanes.h"
 #include "grid/aligned_array.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::transform_plan_test {
 namespace {
 
 using Real = long double;
@@ -154,4 +154,4 @@ INSTANTIATE_TEST_SUITE_P(All, Transform,
                          case_name);
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::transform_plan_test

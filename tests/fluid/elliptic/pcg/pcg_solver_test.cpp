@@ -13,7 +13,7 @@
 #include "test_problems.h"
 #include "thread_count.h"
 
-namespace vesiflow::fluid {
+namespace vesiflow::fluid::pcg_solver_test {
 namespace {
 
 using test::Numbers;
@@ -158,4 +158,4 @@ TEST(PcgSolver, RefusesOptionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace vesiflow::fluid
+}  // namespace vesiflow::fluid::pcg_solver_test
