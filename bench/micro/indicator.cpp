@@ -16,7 +16,7 @@ namespace {
 
 using namespace vesiflow;
 using coupling::Indicator;
-using coupling::test::Ellipsoid;
+using coupling::test::SolidEllipsoid;
 
 double milliseconds(Indicator& indicator, const vesicle::Surface& surface, fluid::Field<fluid::Cell>& field) {
   double least = 1e300;
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   std::printf("far: max error further than 0.75 from the surface; mean: integral of the error per area and spacing\n");
   std::printf("%-22s %5s %7s %9s %9s %9s %8s %9s %9s %8s\n", "", "cells", "h", "far", "above 1", "below 0", "mean/h",
               "volume", "limited", "ms");
-  const Ellipsoid sphere{{1, 1, 1}, {0.03, 0.02, -0.04}}, ellipsoid{{0.7, 1.0, 1.6}, {0.03, 0.02, -0.04}};
+  const SolidEllipsoid sphere{{1, 1, 1}, {0.03, 0.02, -0.04}}, ellipsoid{{0.7, 1.0, 1.6}, {0.03, 0.02, -0.04}};
   for (const auto& [name, shape] : {std::pair{"sphere", sphere}, {"ellipsoid", ellipsoid}}) {
     for (const int cells : sizes) {
       const fluid::Grid grid({-3, -3, -3}, {3, 3, 3}, {cells, cells, cells});
