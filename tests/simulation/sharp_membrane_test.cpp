@@ -74,6 +74,9 @@ void expect_same(SceneSimulation& a, SceneSimulation& b) {
     EXPECT_TRUE((x.vesicles[i].interface_velocity == y.vesicles[i].interface_velocity).all());
   }
   EXPECT_TRUE(std::equal(x.velocity.x.data(), x.velocity.x.data() + x.velocity.x.size(), y.velocity.x.data()));
+  ASSERT_EQ(x.phases.size(), y.phases.size());
+  for (std::size_t i = 0; i < x.phases.size(); ++i)
+    EXPECT_TRUE(std::equal(x.phases[i].x.data(), x.phases[i].x.data() + x.phases[i].x.size(), y.phases[i].x.data()));
   EXPECT_TRUE(std::equal(x.pressure.data(), x.pressure.data() + x.pressure.size(), y.pressure.data()));
 }
 
@@ -83,14 +86,17 @@ TEST(SharpMembrane, ARestoredRunGoesOnBitForBit) {
                                      {five},
                                      {five, "mesh.max_aspect_ratio=1"},
                                      {five, "domain.periodic=[true, true, false]"},
-                                     {equal, "fluid.inertia=full"}})
+                                     {equal, "fluid.inertia=full"},
+                                     {five, "fluid.inertia=full"},
+                                     {five, "fluid.inertia=full", "domain.periodic=[true, true, false]"},
+                                     {five, "fluid.inertia=unsteady", "time.markers=implicit"}})
     for (const int before : {2, 14}) {
       SceneSimulation whole(sharp(overrides)), restored(sharp(overrides)), again(sharp(overrides));
       advance(whole, before);
       restored.restore(whole.state());
       again.restore(restored.state());
       EXPECT_LT(restored.max_divergence(), 1e-11);
-      if (overrides[0] == five) {
+      if (overrides[0] == five && whole.scene().fluid.inertia == fluid::Inertia::none) {
         EXPECT_TRUE((restored.marker_velocity(0) == whole.marker_velocity(0)).all());
       }
       for (SceneSimulation* s : {&whole, &restored, &again}) advance(*s, 4);
@@ -133,14 +139,48 @@ TEST(SharpMembrane, WarmedUpStepsAllocateNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "malloc cannot be counted here";
   const int threads_before = omp_get_max_threads();
   omp_set_num_threads(2);  // with one the OpenMP library itself allocates a team for every loop
-  for (const char* ratio : {equal, five}) {
-    SceneSimulation simulation(sharp({ratio, "mesh.redistribute=never"}));
-    advance(simulation, 4);
+  for (const Overrides& overrides :
+       {Overrides{equal}, {five}, {equal, "fluid.inertia=full"}, {five, "fluid.inertia=full"}}) {
+    Overrides all{"mesh.redistribute=never"};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    SceneSimulation simulation(sharp(all));
+    advance(simulation, 8);
     const long before = test::allocation_count();
     advance(simulation, 2);
-    EXPECT_EQ(test::allocation_count() - before, 0) << ratio;
+    EXPECT_EQ(test::allocation_count() - before, 0) << overrides[0] << ' ' << overrides.back();
   }
   omp_set_num_threads(threads_before);
+}
+
+/// Inclination after half a time unit, in radians.
+double inclination(const Overrides& overrides) {
+  SceneSimulation simulation(sharp(overrides));
+  while (simulation.time() < 0.5 - 1e-9) simulation.step();
+  return simulation.measure().at(0).inclination_angle;
+}
+
+TEST(SharpMembrane, InertiaOfTwoPhasesIsOfSecondOrderInTime) {
+  for (const char* ratio : {"fluid.viscosity_ratio=5", "fluid.viscosity_ratio=0.5"}) {
+    const auto with_step = [&](const char* step) {
+      return inclination({ratio, "fluid.inertia=full", "fluid.reynolds_number=1", step});
+    };
+    const double coarse = with_step("time.step=1/24"), middle = with_step("time.step=1/48"),
+                 fine = with_step("time.step=1/96");
+    EXPECT_GT(std::log2(std::abs((coarse - middle) / (middle - fine))), 1.6) << ratio;
+    EXPECT_LT(std::abs(middle - fine), 1e-3) << ratio;
+  }
+}
+
+// Where ratios tend to one, the flow is that of one fluid; where inertia does, that without it.
+TEST(SharpMembrane, InertiaOfTwoPhasesGoesOverIntoThatOfOneAndIntoNone) {
+  const char* inertia = "fluid.inertia=full";
+  const double one = inclination({equal, inertia, "fluid.reynolds_number=1"});
+  EXPECT_NEAR(inclination({"fluid.viscosity_ratio=1.001", inertia, "fluid.reynolds_number=1"}), one, 2e-3);
+  EXPECT_GT(std::abs(inclination({five, inertia, "fluid.reynolds_number=1"}) - one), 0.03);
+  // Starts from a velocity at rest and from none differ by a part of a step, with one viscosity too.
+  const char* short_steps = "time.step=1/96";
+  EXPECT_NEAR(inclination({five, inertia, "fluid.reynolds_number=1e-3", short_steps}), inclination({five, short_steps}),
+              1e-3);
 }
 
 // A sphere in a periodic box whose fluid as a whole stands still. Its membrane keeps the area locally, so that it sinks as a rigid

@@ -53,6 +53,10 @@ struct SimulationState {
   std::vector<VesicleState> vesicles;  ///< state of each vesicle
   std::vector<double> step_control;    ///< of adaptive steps, and of a start in parts; else empty
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
+
+  /// Sharp membranes between two viscosities in a fluid with inertia: mu u of the outer fluid, continued into the
+  /// membranes, and of the inner ones, continued out of them, now and one step ago. Else, and before the first step, empty.
+  std::vector<fluid::FaceVector> phases = {};
 };
 
 /// The velocity of the fluid of a state, which SimulationState::velocity is but for sharp membranes between two
@@ -77,6 +81,7 @@ class StartControl;
 class StepControl;
 struct StepErrors;
 class ViscosityContrast;
+class PhaseInertia;
 class PhysicalVelocity;
 class BlowUpGuard;
 
@@ -202,13 +207,18 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void take_back();
   void solve_step(double dt);
   void compute_forces(double dt);
-  void spread_forces();
+  void spread_forces(double dt);
+  void clear_forces();
+  void put_forces(bool correction = false);
   void put_fluid_force();
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
   void correct_fluid(double dt);
-  void iterate_interfaces();
+  void iterate_interfaces(double dt);
+  double improve_interfaces();
+  void prepare_inertia(double dt);
+  void keep_phases();
   fluid::Vector3 mean_flow() const;
   void read_velocity(ImmersedVesicle& vesicle);
   void move_markers(double dt);
@@ -236,6 +246,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::vector<vesicle::ScalarField> curvatures_;         // the same, in a start
   bool corrects_fluid_ = false;                          // after each step, for what implicit terms have done
   std::unique_ptr<PhysicalVelocity> physical_velocity_;  // where it is not that of the fluid
+  std::unique_ptr<PhaseInertia> phase_inertia_;          // where two viscosities and inertia meet, if sharp
   fluid::Vector3 mean_flow_{};                           // which the fluid's velocity lacks, of the last solve
   int interface_passes_ = 0;                             // of the last step
   long extra_steps_ = 0;                                 // of the fluid, by parts of steps

@@ -209,6 +209,8 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   bool has_viscosity_field() const;
   /// Whether the fluid is solved for w = mu u instead: sharp membranes between two viscosities.
   bool has_scaled_velocity() const;
+  /// Whether the inertia of the two phases is put on the fluid as a force: the same, in a fluid with inertia.
+  bool has_phase_inertia() const;
   /// Whether each step solves the fluid a second time, with the forces that implicit terms stand for: sharp membranes,
   /// shape_following, and a fluid with inertia.
   bool corrects_fluid() const;

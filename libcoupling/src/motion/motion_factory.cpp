@@ -28,7 +28,7 @@ SurroundingFluid fluid_around(const SimulationParameters& all, std::size_t vesic
   SurroundingFluid::Viscosities viscosities;
   viscosities.own_ratio = all.viscosity_ratio(vesicle);
   viscosities.largest = all.viscosity_range().greatest;
-  viscosities.is_explicit_in_part = all.has_viscosity_contrast() && fluid.has_inertia &&
+  viscosities.is_explicit_in_part = all.has_viscosity_field() && fluid.has_inertia &&
                                     all.fluid.viscous_treatment != fluid::ViscousTreatment::implicit;
   fluid.set_viscosities(viscosities);
   return fluid;

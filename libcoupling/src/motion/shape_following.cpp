@@ -84,7 +84,8 @@ void ShapeFollowing::find_correcting_force(const vesicle::Surface& surface) {
   shape_.harmonics().synthesis(forces_, force_values_);
   correcting_force_ = force_values_.leftCols<3>();
   if (force_values_.cols() == 3) return;
-  surface.projector_divergence(force_values_.col(3), of_tension_);
+  tension_ = force_values_.col(3);
+  surface.projector_divergence(tension_, of_tension_);
   correcting_force_ += of_tension_;
 }
 

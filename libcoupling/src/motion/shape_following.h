@@ -72,6 +72,7 @@ class ShapeFollowing final : public MembraneMotion {
   IncrementSolver::Vector right_side_;
   void find_correcting_force(const vesicle::Surface& surface);
   Eigen::ArrayXXd force_values_;
+  vesicle::ScalarField tension_;
   vesicle::VectorField correcting_force_, of_tension_;  // none unless the fluid is told at once
   mutable std::vector<double> history_;
 };

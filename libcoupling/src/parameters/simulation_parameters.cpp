@@ -78,6 +78,10 @@ bool SimulationParameters::has_scaled_velocity() const {
   return has_viscosity_contrast() && coupling.method == CouplingMethod::sharp;
 }
 
+bool SimulationParameters::has_phase_inertia() const {
+  return has_scaled_velocity() && fluid.inertia != fluid::Inertia::none;
+}
+
 bool SimulationParameters::corrects_fluid() const {
   return coupling.method == CouplingMethod::sharp && fluid.inertia != fluid::Inertia::none &&
          time.markers == MarkerMotion::shape_following;

@@ -15,6 +15,7 @@
 #include "step/blow_up_guard.h"
 #include "step/immersed_vesicle.h"
 #include "step/step_control.h"
+#include "viscosity/phase_inertia.h"
 #include "viscosity/viscosity_contrast.h"
 
 namespace vesiflow::coupling {
@@ -83,6 +84,7 @@ void Simulation::remember() {
   const PhaseTimer timer(phases_.adaptation);
   fluid_.remember();
   if (contrast_) contrast_->remember();
+  if (phase_inertia_) phase_inertia_->remember();
   remembered_.resize(vesicles_.size());
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     ImmersedVesicle& v = *vesicles_[i];
@@ -99,6 +101,7 @@ void Simulation::take_back() {
   const PhaseTimer timer(phases_.adaptation);
   fluid_.retry();
   if (contrast_) contrast_->take_back();
+  if (phase_inertia_) phase_inertia_->take_back();
   for (std::size_t i = 0; i < vesicles_.size(); ++i) {
     vesicles_[i]->membrane.restore(remembered_[i].membrane);
     vesicles_[i]->is_current = false;

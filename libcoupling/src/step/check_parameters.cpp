@@ -170,8 +170,6 @@ void check_sharp(const SimulationParameters& parameters) {
                     name(parameters.time.markers)));
   if (parameters.coupling.thickness_correction)
     refuse("a membrane without thickness needs no coupling.thickness_correction; set it to false");
-  if (parameters.has_viscosity_contrast() && parameters.fluid.inertia != fluid::Inertia::none)
-    refuse("takes two viscosities only with fluid.inertia = \"none\"; set it");
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (parameters.domain.mirror[axis])
       refuse(fmt::format("takes no mirrors; set domain.mirror[{}] to false and compute the whole box", axis));

@@ -13,6 +13,7 @@
 #include "motion/following_parameters.h"
 #include "motion/motion_factory.h"
 #include "phase_timer.h"
+#include "viscosity/phase_inertia.h"
 
 namespace vesiflow::coupling {
 namespace {
@@ -68,7 +69,10 @@ ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const F
   if (parameters.coupling.method == CouplingMethod::sharp) {
     const double radius = std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi));
     const int degrees = std::min(parameters.latitudes(number), sharp_degrees(radius, parameters.spacing()));
-    sharp.emplace(grid, membrane.surface().grid(), SharpTransfer::Parameters{.degrees = degrees});
+    sharp.emplace(
+        grid, membrane.surface().grid(),
+        SharpTransfer::Parameters{.degrees = degrees,
+                                  .more_reach = parameters.has_phase_inertia() ? PhaseInertia::more_reach : 0.0});
     const double ratio = parameters.viscosity_ratio(number);
     if (ratio != 1.0) two_phase.emplace(ratio, membrane.positions().rows());
   }

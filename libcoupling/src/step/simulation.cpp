@@ -21,6 +21,7 @@
 #include "step/external_forces.h"
 #include "step/immersed_vesicle.h"
 #include "step/step_control.h"
+#include "viscosity/phase_inertia.h"
 #include "viscosity/physical_velocity.h"
 #include "viscosity/viscosity_contrast.h"
 
@@ -40,6 +41,11 @@ std::unique_ptr<ViscosityContrast> contrast_of(const SimulationParameters& param
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters, const ViscosityContrast* contrast) {
   fluid::FluidParameters of_fluid = fluid_parameters_of(parameters);
   if (contrast != nullptr) of_fluid.viscosity = contrast->field();
+  if (parameters.has_phase_inertia()) {  // which has convection and all that a has too much
+    of_fluid.inertia = fluid::Inertia::unsteady;
+    of_fluid.reynolds_number =
+        PhaseInertia::solved_reynolds_number(parameters.fluid.reynolds_number, parameters.viscosity_range().least);
+  }
   return of_fluid;
 }
 
@@ -74,6 +80,7 @@ Simulation::~Simulation() = default;
 // And what refers to them.
 void Simulation::make_vesicles() {
   implicit_step_.reset();
+  phase_inertia_.reset();
   external_forces_.reset();
   vesicles_.clear();
   for (std::size_t i = 0; i < parameters_.vesicles.size(); ++i) {
@@ -84,6 +91,13 @@ void Simulation::make_vesicles() {
   corrects_fluid_ = parameters_.corrects_fluid();
   if (parameters_.has_scaled_velocity() && !physical_velocity_)
     physical_velocity_ = std::make_unique<PhysicalVelocity>(fluid_.grid());
+  if (parameters_.has_phase_inertia()) {
+    std::vector<PhaseInertia::Body> bodies;
+    for (const auto& v : vesicles_)
+      if (v->two_phase) bodies.push_back({&*v->sharp, v->two_phase->ratio()});
+    phase_inertia_ = std::make_unique<PhaseInertia>(fluid_.grid(), parameters_.fluid.reynolds_number, std::move(bodies),
+                                                    parameters_.fluid.inertia == fluid::Inertia::full);
+  }
   if (parameters_.time.markers != MarkerMotion::implicit) return;
   std::vector<ImplicitStep::Member> members;
   for (const auto& v : vesicles_) members.push_back({&dynamic_cast<ImplicitMotion&>(*v->motion), &v->membrane});
@@ -241,6 +255,7 @@ SimulationState Simulation::state() const {
         {v->membrane.state(), {history.begin(), history.end()}, v->redistributions, v->interface_velocity()});
   }
   state.clock.steps = steps();
+  if (phase_inertia_ && fluid_.steps() > 0) state.phases = phase_inertia_->state();
   if (step_control_) state.step_control = step_control_->state();
   if (start_control_) state.step_control = start_control_->state();
   return state;
@@ -269,6 +284,7 @@ void Simulation::restore(const SimulationState& state) {
     if (fluid_.steps() > 0) v.restore_interface_velocity(state.vesicles[i].interface_velocity);
     if (v.two_phase) v.update();  // the mean flow is of its present shape
   }
+  if (phase_inertia_ && fluid_.steps() > 0) phase_inertia_->restore(state.phases, fluid_);
   mean_flow_ = mean_flow();
   for (auto& v : vesicles_) {
     v->mean_flow = mean_flow_;

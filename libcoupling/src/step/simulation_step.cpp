@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "coupling/errors.h"
@@ -18,6 +19,7 @@
 #include "step/external_forces.h"
 #include "step/immersed_vesicle.h"
 #include "step/step_control.h"
+#include "viscosity/phase_inertia.h"
 #include "viscosity/viscosity_contrast.h"
 
 namespace vesiflow::coupling {
@@ -55,6 +57,7 @@ void Simulation::take_step(double dt) {
   advance_fluid(dt);  // Step 3: Navier-Stokes
   move_markers(dt);   // Steps 4 and 5: interpolation, mesh control, markers, target areas
   if (corrects_fluid_) correct_fluid(dt);
+  keep_phases();
 }
 
 // Steps 1 to 5 with forces at the new state, again and again until it answers to itself.
@@ -63,11 +66,12 @@ void Simulation::solve_step(double dt) {
   implicit_step_->take(dt, [&](bool again) {
     if (again) {
       fluid_.retry();
-      spread_forces();
+      spread_forces(dt);
     }
     advance_fluid(dt);
     move_markers(dt);
   });
+  keep_phases();
 }
 
 void Simulation::compute_forces(double dt) {
@@ -76,15 +80,11 @@ void Simulation::compute_forces(double dt) {
     for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->predict(dt); });
     for (std::size_t i = 0; i < vesicles_.size(); ++i) check_limits(i);
   }
-  spread_forces();
+  spread_forces(dt);
 }
 
-void Simulation::spread_forces() {
-  {
-    const PhaseTimer timer(phases_.spread);
-    for (auto& v : vesicles_) v->clear(fluid_);
-    if (fluid_force_) put_fluid_force();
-  }
+void Simulation::spread_forces(double dt) {
+  clear_forces();
   {
     const PhaseTimer timer(phases_.membrane);
     for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->update(); });
@@ -93,11 +93,29 @@ void Simulation::spread_forces() {
     const PhaseTimer timer(phases_.external_forces);
     external_forces_->compute(time());
   }
-  const PhaseTimer timer(phases_.spread);
-  for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(); });
-  // On one grid, in this order: sums are the same for any number of threads.
-  for (auto& v : vesicles_) v->put_force(fluid_);
+  {
+    const PhaseTimer timer(phases_.spread);
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(); });
+  }
+  prepare_inertia(dt);
+  put_forces();
   if (!fluid_.grid().has_walls()) hold_the_fluid();
+}
+
+void Simulation::clear_forces() {
+  const PhaseTimer timer(phases_.spread);
+  for (auto& v : vesicles_) v->clear(fluid_);
+  if (fluid_force_)
+    put_fluid_force();
+  else if (phase_inertia_)  // which is everywhere
+    fluid_.force().fill(0.0);
+}
+
+// On one grid, in this order: sums are the same for any number of threads.
+void Simulation::put_forces(bool correction) {
+  const PhaseTimer timer(phases_.spread);
+  for (auto& v : vesicles_) v->put_force(fluid_, correction);
+  if (phase_inertia_) phase_inertia_->add_to(fluid_.force());
 }
 
 // In the place of what is in the field of forces: markers add theirs.
@@ -132,7 +150,7 @@ void Simulation::update_viscosity() {
 void Simulation::advance_fluid(double dt) {
   try {
     fluid_.step(dt);
-    iterate_interfaces();
+    iterate_interfaces(dt);
   } catch (const std::invalid_argument& error) {
     if (fluid_.steps() > 0) throw;  // the state's fault
     // The velocity solver is made in the first step, or refused.
@@ -144,53 +162,69 @@ void Simulation::advance_fluid(double dt) {
 
 // The implicit terms have moved the membranes otherwise than the fluid has; with their forces it does.
 void Simulation::correct_fluid(double dt) {
-  {
-    const PhaseTimer timer(phases_.spread);
-    for (auto& v : vesicles_) v->clear(fluid_);
-    if (fluid_force_) put_fluid_force();
-    for (auto& v : vesicles_) v->put_force(fluid_, true);
-  }
+  clear_forces();
+  put_forces(true);
   fluid_.retry();
   fluid_.step(dt);
+  improve_interfaces();
 }
 
-// Sharp membranes between two viscosities: forces at the velocity that they lead to.
-void Simulation::iterate_interfaces() {
-  const auto improve = [this] {
-    const PhaseTimer timer(phases_.interpolate);
-    mean_flow_ = mean_flow();
-    double change = 0.0;
-    for (auto& v : vesicles_) {
-      v->mean_flow = mean_flow_;
-      if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity()));
-    }
-    return change;
-  };
+// The velocities of sharp membranes between two viscosities; returns the largest change.
+double Simulation::improve_interfaces() {
+  const PhaseTimer timer(phases_.interpolate);
+  mean_flow_ = mean_flow();
+  double change = 0.0;
+  for (auto& v : vesicles_) {
+    v->mean_flow = mean_flow_;
+    if (v->two_phase) change = std::max(change, v->improve_interface(fluid_.velocity()));
+  }
+  return change;
+}
+
+// Forces at the velocity that they lead to.
+void Simulation::iterate_interfaces(double dt) {
   if (std::ranges::none_of(vesicles_, [](const auto& v) { return v->two_phase.has_value(); })) return;
   int passes = 1;
   ++interface_passes_;
-  for (double change = improve(); change > interface_tolerance; change = improve()) {
+  for (double change = improve_interfaces(); change > interface_tolerance; change = improve_interfaces()) {
     if (passes == most_interface_passes)
       throw std::runtime_error(
           fmt::format("the velocities of membranes between two viscosities still change by {:.2g} after {} solves",
                       change, passes));
-    {
-      const PhaseTimer timer(phases_.spread);
-      for (auto& v : vesicles_) v->clear(fluid_);
-      if (fluid_force_) put_fluid_force();
-      for (auto& v : vesicles_) v->put_force(fluid_);
+    clear_forces();
+    put_forces();
+    if (phase_inertia_) {
+      fluid_.retry();
+      fluid_.step(dt);
+    } else {
+      fluid_.solve_again();
     }
-    fluid_.solve_again();
     ++passes;
     ++interface_passes_;
   }
+}
+
+void Simulation::prepare_inertia(double dt) {
+  if (!phase_inertia_) return;
+  const PhaseTimer timer(phases_.spread);
+  if (fluid_.steps() == 0) phase_inertia_->begin(fluid_.velocity());
+  const double a = phase_inertia_->prepare(fluid_, dt);
+  for (auto& v : vesicles_)
+    if (v->two_phase)
+      v->two_phase->set_inertia(a * std::pow(0.75 / std::numbers::pi * v->membrane.initial_volume(), 2.0 / 3.0));
+}
+
+void Simulation::keep_phases() {
+  if (!phase_inertia_) return;
+  const PhaseTimer timer(phases_.spread);
+  phase_inertia_->keep(fluid_.velocity());
 }
 
 // Without walls the mean of mu u, which the fluid's solver takes to be zero, is such that that of u is.
 fluid::Vector3 Simulation::mean_flow() const {
   fluid::Vector3 mean{};
   const fluid::Grid& grid = fluid_.grid();
-  if (grid.has_walls()) return mean;
+  if (grid.has_walls() || phase_inertia_) return mean;
   for (const auto& v : vesicles_) {
     if (!v->two_phase) continue;
     const vesicle::Vector3 displaced = v->two_phase->displaced(v->membrane.surface());

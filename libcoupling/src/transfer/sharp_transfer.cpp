@@ -54,6 +54,7 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
     : grid_(grid),
       smoothing_(parameters.smoothing * grid.min_spacing()),
       spacing_(std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)})),
+      more_reach_(parameters.more_reach * spacing_),
       jumps_(markers, {.degrees = parameters.degrees, .jump_degrees = markers.latitudes(), .cut = {}}),
       fine_(4) {
   for (int axis = 0; axis < 3; ++axis) per_spacing_[axis] = 1.0 / grid.spacing(axis);
@@ -69,7 +70,8 @@ void SharpTransfer::update(const vesicle::Surface& surface) {
   // f is at faces within reach, whose differences take in the next faces and the cells on both sides; r is at cells
   // within reach at most, and takes in the faces on both sides.
   const double reach = force_reach();
-  for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, reach + (1.0 + slack) * spacing_, &positions_);
+  for (std::size_t c = 0; c < 3; ++c)
+    bands_[c].update(fine_, reach + more_reach_ + (1.0 + slack) * spacing_, &positions_);
   bands_[pressure_band].update(fine_, reach + (0.5 + slack) * spacing_);
 }
 

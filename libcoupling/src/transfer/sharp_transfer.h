@@ -33,6 +33,8 @@ class SharpTransfer {
   struct Parameters {
     int degrees = 0;         ///< degrees of forces that the grid resolves; 0: all
     double smoothing = 1.0;  ///< in spacings
+    /// How much further than forces need it points of the velocity know their jumps, in spacings.
+    double more_reach = 0.0;
   };
 
   SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters);
@@ -55,6 +57,9 @@ class SharpTransfer {
   /// The points of a component of the velocity, 0 to 2, that are near the membrane of the last update.
   const GridBand& band(int component) const { return bands_[static_cast<std::size_t>(component)]; }
 
+  /// theta at a signed distance.
+  double blend(double distance) const;
+
   /// Force that lacked of the total, over the sum of the sizes of the forces: a measure of the error.
   double lacking_force() const { return lacking_force_; }
 
@@ -67,7 +72,6 @@ class SharpTransfer {
     friend bool operator==(const Box&, const Box&) = default;
   };
 
-  double blend(double distance) const;
   double force_reach() const;
   double source_reach() const;
   static double corrected(const GridBand& band, std::ptrdiff_t at, double theta);
@@ -84,6 +88,7 @@ class SharpTransfer {
   fluid::Grid grid_;
   double smoothing_;  // width
   double spacing_;    // the largest
+  double more_reach_;
   std::array<double, 3> per_spacing_;
   vesicle::MembraneJumps jumps_;
   FineSurface fine_;

@@ -5,13 +5,28 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "viscosity/rigid_response.h"
+
 namespace vesiflow::coupling {
 
 InterfaceVelocity::InterfaceVelocity(double ratio, Eigen::Index markers)
     : ratio_(ratio),
+      more_translation_(0.5 * (ratio - 1.0)),
+      more_rotation_(more_translation_),
       velocity_(vesicle::VectorField::Zero(markers, 3)),
       jump_(vesicle::VectorField::Zero(markers, 3)),
       change_(vesicle::VectorField::Zero(markers, 3)) {}
+
+void InterfaceVelocity::set_inertia(double a_r2) {
+  const RigidResponse mean = rigid_response(a_r2);
+  // What is left of a change is the eigenvalue 2 (1 - ratio)/(1 + ratio) mean.
+  const auto more = [this](double of_jump) {
+    const double eigenvalue = 2.0 * (1.0 - ratio_) / (1.0 + ratio_) * of_jump;
+    return eigenvalue / (1.0 - eigenvalue);
+  };
+  more_translation_ = more(mean.translation);
+  more_rotation_ = more(mean.rotation);
+}
 
 const vesicle::VectorField& InterfaceVelocity::jump() {
   jump_ = (1.0 - ratio_) * velocity_;
@@ -45,9 +60,10 @@ double InterfaceVelocity::improve(const vesicle::Surface& surface, const vesicle
     inertia += weight[m] * (r.squaredNorm() * Eigen::Matrix3d::Identity() - r * r.transpose());
   }
   const Vector turning = inertia.ldlt().solve(momentum);
-  const double extra = 0.5 * (ratio_ - 1.0);
-  for (Eigen::Index m = 0; m < x.rows(); ++m)
-    change_.row(m) += extra * (velocity + turning.cross(Vector(x.row(m).transpose()) - centre)).transpose().array();
+  for (Eigen::Index m = 0; m < x.rows(); ++m) {
+    const Vector turned = turning.cross(Vector(x.row(m).transpose()) - centre);
+    change_.row(m) += (more_translation_ * velocity + more_rotation_ * turned).transpose().array();
+  }
 
   velocity_ += change_;
   const auto size = [&](const vesicle::VectorField& field) {

@@ -13,8 +13,8 @@ namespace vesiflow::coupling {
 /// so one solve with constant coefficients gives w for a known U, and the mean of w on both sides gives U back:
 ///     U = 2 w_mean/(1 + ratio).
 /// U is the fixed point of this map. Its slowest parts are known in closed form, and taken out: rigid motions, on which
-/// the map has the eigenvalue (ratio - 1)/(ratio + 1), so that their part of a change is multiplied by (ratio + 1)/2, and
-/// the dilation, which no incompressible fluid has: the net flux is removed. Augmented variables and
+/// the map has the eigenvalue (ratio - 1)/(ratio + 1) where there is no inertia and that of a sphere (RigidResponse)
+/// where there is, so that their part of a change is divided by one less this, and the dilation, which no incompressible fluid has: the net flux is removed. Augmented variables and
 /// scaled velocities for two viscosities: Li, Ito & Lai, Computers & Fluids 36 (2007). docs/jump_conditions.md.
 class InterfaceVelocity {
  public:
@@ -25,6 +25,8 @@ class InterfaceVelocity {
   const vesicle::VectorField& value() const { return velocity_; }
   /// Takes U (markers x 3) from elsewhere.
   void set(const vesicle::VectorField& velocity) { velocity_ = velocity; }
+  /// Of a fluid whose solver has the acceleration a w: a R^2, R the radius of a sphere of the same volume. Zero at first.
+  void set_inertia(double a_r2);
   /// q (markers x 3).
   const vesicle::VectorField& jump();
 
@@ -37,6 +39,7 @@ class InterfaceVelocity {
 
  private:
   double ratio_;
+  double more_translation_, more_rotation_;  // of a change, beside itself
   vesicle::VectorField velocity_, jump_, change_;
 };
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "files/atomic_file.h"
 #include "files/hdf5_file.h"
@@ -235,10 +236,14 @@ auto as_input(const Read& read) {
   }
 }
 
+/// Of SimulationState::phases.
+constexpr std::array<const char*, 4> phase_names{"/outer_velocity", "/inner_velocity", "/previous_outer_velocity",
+                                                 "/previous_inner_velocity"};
+
 coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
   const fluid::Grid grid = coupling::grid_of(scene);
   coupling::SimulationState state{
-      fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}, {}, {}};
+      fluid::FaceVector(grid), fluid::FaceVector(grid), fluid::Field<fluid::Cell>(grid), {}, {}, {}, {}, {}};
   state.clock = {.time = file.read_number("/", "time"),
                  .previous_time = file.read_number("/", "previous_time"),
                  .time_step = file.read_number("/", "time_step"),
@@ -247,6 +252,8 @@ coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, c
   read_velocity(file, "/previous_velocity", state.previous_velocity, path);
   read_field(file, "/pressure", state.pressure, path);
   if (file.exists("/step_control")) state.step_control = file.read("/step_control");
+  if (file.exists(phase_names[0]))  // of sharp membranes between two viscosities, with inertia
+    for (const char* name : phase_names) read_velocity(file, name, state.phases.emplace_back(grid), path);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     const Eigen::Index latitudes = scene.latitudes(i);
     state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
@@ -275,6 +282,7 @@ void write_checkpoint(const std::filesystem::path& path, const SceneSimulation& 
     write_velocity(file, "/velocity", state.velocity);
     write_velocity(file, "/previous_velocity", state.previous_velocity);
     write_field(file, "/pressure", state.pressure);
+    for (std::size_t i = 0; i < state.phases.size(); ++i) write_velocity(file, phase_names[i], state.phases[i]);
     if (!state.step_control.empty())
       write_array(file, "/step_control", state.step_control.data(),
                   static_cast<Eigen::Index>(state.step_control.size()));

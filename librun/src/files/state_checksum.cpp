@@ -44,6 +44,7 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
   add_velocity(sum, state.previous_velocity);
   add_array(sum, state.pressure);
   add_array(sum, state.step_control);
+  for (const fluid::FaceVector& phase : state.phases) add_velocity(sum, phase);
   for (const coupling::VesicleState& vesicle : state.vesicles) {
     add_membrane(sum, vesicle.membrane);
     add_array(sum, vesicle.motion_history);

@@ -7,7 +7,7 @@
 namespace vesiflow::run {
 
 double fluid_solves(const Scene& scene) {
-  if (scene.corrects_fluid()) return 2.0;
+  if (scene.corrects_fluid()) return scene.has_phase_inertia() ? 4.0 : 2.0;
   if (!scene.has_scaled_velocity()) return 1.0;
   // On h = R/5.3, steps of 1/24 (1/48 at ratio 20): 3.8 at ratio 5, 4.1 at 20, 4.9 at 0.2.
   return scene.viscosity_range().least < 1.0 ? 5.0 : 4.0;
