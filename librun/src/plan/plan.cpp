@@ -326,6 +326,11 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(is_sharp(scene), "jumps", describe_jumps(scene), "coupling.method = \"delta\"");
   plan.part(scene.has_scaled_velocity(), "interface velocity", describe_interface_passes(scene),
             is_sharp(scene) ? equal_viscosities : "coupling.method = \"delta\"");
+  plan.part(scene.has_phase_inertia(), "inertia of phases",
+            "as a force: both phases at three times, continued across the membranes",
+            !is_sharp(scene)                 ? "coupling.method = \"delta\""
+            : scene.has_viscosity_contrast() ? "fluid.inertia = \"none\""
+                                             : equal_viscosities);
   plan.part(scene.coupling.thickness_correction, "thickness correction",
             fmt::format("of {:.3g} h per viscosity, in low degrees", coupling::thickening(scene.coupling.kernel)),
             is_sharp(scene) ? "coupling.method = \"sharp\": membranes have no thickness"

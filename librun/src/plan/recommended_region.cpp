@@ -53,10 +53,20 @@ std::string describe_marker_spacing(const Scene& scene) {
 }
 
 std::string describe_sharp_region(const Scene& scene) {
+  using validity::thin_sharp_ratio, validity::largest_reynolds_number_of_thin_sharp;
+  std::string warning;
+  const double least = scene.viscosity_range().least;
+  if (scene.has_phase_inertia() && least < thin_sharp_ratio &&
+      vesicle_reynolds_number(scene) > largest_reynolds_number_of_thin_sharp)
+    warning = fmt::format(
+        "  <- WARNING: a fluid of ratio {:g} inside blows up at such Reynolds numbers: take fluid.reynolds_number <= "
+        "{:g}, "
+        "ratios >= {:g} or coupling.method = \"delta\"",
+        least, largest_reynolds_number_of_thin_sharp, thin_sharp_ratio);
   return fmt::format(
       "not mapped yet for coupling.method = \"sharp\", but for Reynolds numbers: the limits of this plan are those of "
-      "\"delta\"; no mirrors, and walls at least {:g} h off",
-      coupling::wall_clearance(scene.coupling.kernel));
+      "\"delta\"; no mirrors, and walls at least {:g} h off{}",
+      coupling::wall_clearance(scene.coupling.kernel), warning);
 }
 
 std::string step_warning(const Scene& scene) {

@@ -65,6 +65,22 @@ TEST(SharpPlan, SaysWhichMethodAndWhatItSkips) {
   two.skips("indicator", "coupling.method = \"sharp\"");
   two.skips("variable viscosity", "coupling.method = \"sharp\"");
   two.has("velocity and pressure together, to a tolerance, with constant coefficients");
+  two.skips("inertia of phases", "fluid.inertia = \"none\"");
+  equal.skips("inertia of phases", "the viscosity ratio of every vesicle is 1");
+}
+
+TEST(SharpPlan, OfTwoViscositiesWithInertia) {
+  constexpr auto five = "fluid.viscosity_ratio=5", inertia = "fluid.inertia=full", ten = "fluid.reynolds_number=10";
+  const PlanText plan(sharp({five, inertia, ten}));
+  plan.does("inertia of phases");
+  plan.has_not("blows up at such Reynolds numbers");
+  EXPECT_EQ(fluid_solves(sharp({five, inertia, ten})), 4.0);
+  PlanText(delta({five, inertia, ten})).skips("inertia of phases", "coupling.method = \"delta\"");
+  EXPECT_GT(plan_memory(sharp({five, inertia, ten})).fluid, 2.0 * plan_memory(sharp({"fluid.inertia=full"})).fluid);
+  const PlanText thin(sharp({"fluid.viscosity_ratio=0.2", "fluid.inertia=full", "fluid.reynolds_number=10"}));
+  thin.has("blows up at such Reynolds numbers");
+  PlanText(sharp({"fluid.viscosity_ratio=0.2", "fluid.inertia=full", "fluid.reynolds_number=1"}))
+      .has_not("blows up at such Reynolds numbers");
 }
 
 TEST(SharpPlan, OfDeltaFunctionsSaysSo) {
