@@ -26,7 +26,7 @@ logged build/test/ctest.log "Testing" \
 grep 'tests passed' build/test/ctest.log
 
 # Warnings that only code for AVX-512 raises are in libvesicle, where Eigen's loops are: looked for on other machines too. Sources are compiled
-# six at once, which takes half of the time; GCC then warns of types of one file that are members in the same file.
+# six at once, in 90 s instead of 117; GCC then warns of types of one file that are members in the same file.
 if [[ $level == x86-64-v[23] ]]; then
   logged build/wide/configure.log "Configuring build/wide" cmake -S . -B build/wide "${options[@]}" \
     -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=6 -DCMAKE_CXX_FLAGS=-Wno-subobject-linkage \

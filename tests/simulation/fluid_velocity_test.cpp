@@ -171,8 +171,8 @@ TEST(FluidVelocity, TakesEachMembraneByItsOwnRatio) {
 
 // From a state alone, as a run that starts from another one does.
 TEST(FluidVelocity, OfAStateIsThatOfTheSimulationThatIsRestoredToIt) {
-  for (const bool periodic : {false, true}) {
-    Overrides overrides = sharp({"fluid.viscosity_ratio=5"});
+  for (const auto& [periodic, inertia] : {std::pair{false, "none"}, {true, "none"}, {true, "full"}}) {
+    Overrides overrides = sharp({"fluid.viscosity_ratio=5", std::string("fluid.inertia=") + inertia});
     if (periodic)
       for (const char* key : {"flow.type=rest", "domain.periodic=[true, true, true]", "gravity.acceleration=[1, 0, -2]",
                               "vesicles.density_difference=3"})

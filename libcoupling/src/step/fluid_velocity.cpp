@@ -83,7 +83,7 @@ fluid::FaceVector fluid_velocity_of(const SimulationParameters& parameters, cons
     if (const double ratio = parameters.viscosity_ratio(i); ratio != 1.0)
       interfaces.emplace_back(grid, state.vesicles[i], parameters.latitudes(i), ratio);
   fluid::Vector3 mean{};
-  if (!grid.has_walls())
+  if (!grid.has_walls() && !parameters.has_phase_inertia())  // see Simulation::mean_flow()
     for (Interface& interface : interfaces) {
       const vesicle::Vector3 displaced = interface.displaced();
       for (int axis = 0; axis < 3; ++axis)

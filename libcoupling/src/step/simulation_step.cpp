@@ -220,7 +220,8 @@ void Simulation::keep_phases() {
   phase_inertia_->keep(fluid_.velocity());
 }
 
-// Without walls the mean of mu u, which the fluid's solver takes to be zero, is such that that of u is.
+// Without walls the mean of mu u, which the fluid's solver takes to be zero, is such that that of u is. With inertia the solver has a mean
+// of its own, from the forces.
 fluid::Vector3 Simulation::mean_flow() const {
   fluid::Vector3 mean{};
   const fluid::Grid& grid = fluid_.grid();

@@ -12,7 +12,7 @@ void InsidePoints::find(const GridBand& band, double spacing) {
   const double near = spacing * (1.0 + 1e-9);
   const auto& first = band.first();
   const auto& n = band.extent();
-  resize_with_room(runs_, static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]));  // of a convex body
+  reserve_with_room(runs_, static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]));  // of a convex body
   runs_.clear();
   std::ptrdiff_t at = 0;
   for (int k = first[2]; k < first[2] + n[2]; ++k)

@@ -49,9 +49,9 @@ void for_band(const GridBand& band, const Work& work) {
 
 }  // namespace
 
-// Errors of a phase decay by the root 1 - 2 s/3 a step, s the share of its acceleration in the solved one (see the header): by at least 1/3 with
-// s = 2, as those of BDF2 itself with s = 1. A larger share would not decay beyond s = 3, a smaller solved one leaves more to be
-// extrapolated: with s = 1 at ratio 0.2, Re = 1, dt = 1/24 stiff membranes blow up.
+// Errors of a phase are multiplied by 1 - 2 s/3 in a step, s its acceleration over the solved one: by -1/3 with s = 2, which is as good as the
+// 1/3 of BDF2 itself, s = 1. From s = 3 on they would not decay. A larger Re_s leaves more to be extrapolated: with s = 1 inside at ratio 0.2,
+// Re = 1, dt = 1/24 stiff membranes blow up.
 double PhaseInertia::solved_reynolds_number(double reynolds_number, double least_ratio) {
   return reynolds_number * std::max(1.0, 0.5 / least_ratio);
 }
@@ -89,11 +89,7 @@ void PhaseInertia::begin(const fluid::FaceVector& velocity) {
           for_places(point.index, grid_, inner.extent, [&](int i, int j, int k) { inner(i, j, k) *= body.ratio; });
       });
     }
-  convect(level);
-  Level& earlier = levels_[(now_ + 2) % 3];  // its coefficients are zero, but it is read
-  copy(level.outer, earlier.outer);
-  copy(level.inner, earlier.inner);
-  convect(earlier);
+  convect(level);  // the time before has coefficients of zero
 }
 
 double PhaseInertia::ForceAt::operator()(std::ptrdiff_t at, bool inside, double theta, double ratio) const {

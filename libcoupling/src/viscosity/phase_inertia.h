@@ -17,13 +17,13 @@ namespace vesiflow::coupling {
 /// and one acceleration.
 ///
 /// In each phase Re Du/Dt = -grad p + Lap w, so that the term in dw/dt is Re outside of the membranes and Re/ratio
-/// inside. The solver has Re_s dw/dt everywhere, Re_s about the largest of these, with w as the grid has it: of the phase that
-/// a point is in now, whatever it was in before. The force is what that is too much, less what the two phases ask for,
-///     f = Re_s (c0 w' + c1 w^k + c2 w^(k-1)) - (1 - theta) Re A(outer w) - theta Re/ratio A(inner w),
-///     A(w) = c0 w^(k+1) + c1 w^k + c2 w^(k-1) + N(w)/mu,
+/// inside. The solver has Re_s dw/dt everywhere, with w as the grid has it: at each time of the phase that a point was in
+/// then. The force is that less what the two phases ask for,
+///     f = Re_s (c0 w^(k+1) + c1 w^k + c2 w^(k-1)) - (1 - theta) Re A(outer w, 1) - theta Re/ratio A(inner w, ratio),
+///     A(w, mu) = c0 w^(k+1) + c1 w^k + c2 w^(k-1) + N(w)/mu,
 /// with the coefficients c of the solver's time differences and N extrapolated, each phase continued across the membrane
-/// at each of its times by the jumps that the membrane had then, and theta the smooth step of SharpTransfer. Of w^(k+1)
-/// in the term that is left of c0 the extrapolation w' of the present phase is taken. docs/jump_conditions.md.
+/// at each of its times by the jumps that the membrane had then, and theta the smooth step of SharpTransfer. Where
+/// w^(k+1) does not cancel, its extrapolation in the phase that the point is in now is taken. docs/jump_conditions.md.
 class PhaseInertia {
  public:
   struct Body {
@@ -35,7 +35,7 @@ class PhaseInertia {
   /// the membrane's blending zone, to which it has moved in two steps.
   static constexpr double more_reach = 1.5;
 
-  /// Re_s for membranes with these ratios.
+  /// Re_s: no phase has more than twice its acceleration.
   static double solved_reynolds_number(double reynolds_number, double least_ratio);
 
   /// \param bodies at least one; their transfers live longer than this

@@ -53,11 +53,17 @@ std::string describe_marker_spacing(const Scene& scene) {
 }
 
 std::string describe_sharp_region(const Scene& scene) {
-  using validity::thin_sharp_ratio, validity::largest_reynolds_number_of_thin_sharp;
+  using validity::thin_sharp_ratio, validity::thinnest_sharp_ratio, validity::largest_reynolds_number_of_thin_sharp;
   std::string warning;
   const double least = scene.viscosity_range().least;
-  if (scene.has_phase_inertia() && least < thin_sharp_ratio &&
-      vesicle_reynolds_number(scene) > largest_reynolds_number_of_thin_sharp)
+  if (scene.has_phase_inertia() && least < thinnest_sharp_ratio)
+    warning = fmt::format(
+        "  <- WARNING: with inertia a fluid of ratio {:g} inside blows up: take fluid.inertia = \"none\", ratios >= "
+        "{:g} or "
+        "coupling.method = \"delta\"",
+        least, thinnest_sharp_ratio);
+  else if (scene.has_phase_inertia() && least < thin_sharp_ratio &&
+           vesicle_reynolds_number(scene) > largest_reynolds_number_of_thin_sharp)
     warning = fmt::format(
         "  <- WARNING: a fluid of ratio {:g} inside blows up at such Reynolds numbers: take fluid.reynolds_number <= "
         "{:g}, "

@@ -7,6 +7,7 @@
 namespace vesiflow::run {
 
 double fluid_solves(const Scene& scene) {
+  // Two viscosities with inertia, steps of 1/24 and 1/48 on h = R/4 to R/8: 2.3 to 3.6, and one that corrects the fluid.
   if (scene.corrects_fluid()) return scene.has_phase_inertia() ? 4.0 : 2.0;
   if (!scene.has_scaled_velocity()) return 1.0;
   // On h = R/5.3, steps of 1/24 (1/48 at ratio 20): 3.8 at ratio 5, 4.1 at 20, 4.9 at 0.2.

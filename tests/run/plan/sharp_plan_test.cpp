@@ -79,6 +79,9 @@ TEST(SharpPlan, OfTwoViscositiesWithInertia) {
   EXPECT_GT(plan_memory(sharp({five, inertia, ten})).fluid, 2.0 * plan_memory(sharp({"fluid.inertia=full"})).fluid);
   const PlanText thin(sharp({"fluid.viscosity_ratio=0.2", "fluid.inertia=full", "fluid.reynolds_number=10"}));
   thin.has("blows up at such Reynolds numbers");
+  PlanText(sharp({"fluid.viscosity_ratio=0.05", "fluid.inertia=full", "fluid.reynolds_number=0.1"}))
+      .has("with inertia a fluid of ratio 0.05 inside blows up");
+  PlanText(sharp({"fluid.viscosity_ratio=0.05"})).has_not("blows up");
   PlanText(sharp({"fluid.viscosity_ratio=0.2", "fluid.inertia=full", "fluid.reynolds_number=1"}))
       .has_not("blows up at such Reynolds numbers");
 }
