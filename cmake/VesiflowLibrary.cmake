@@ -18,6 +18,8 @@ function(vesiflow_compile_options target)
     # GCC 12.0 to 12.2 make the undefined registers in their own headers of AVX-512 as `__m512d y = y` and then warn of it wherever
     # that is inlined (GCC bug 105593). Without this warning such a line is taken as meant; all else uninitialised is still found.
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,12.3>>:-Wno-init-self>
+    # Sources that are compiled as one look to GCC like one header, whose types of one file must not be members of others.
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)
   if(VESIFLOW_SANITIZE)
@@ -72,6 +74,8 @@ function(vesiflow_library name)
            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/vesiflow>
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/common)
   target_link_libraries(${target} PRIVATE ${CMAKE_DL_LIBS})  # of common/short_waits.cpp
+  # Each library has this one; a program takes it from one of them, if it is an object of its own.
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/common/short_waits.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   # An install takes what is built. This return leaves the library's own script of the install, and so skips what follows.
   install(CODE "if(NOT EXISTS \"$<TARGET_FILE:${target}>\")
     message(STATUS \"lib${name} is not built, so it is not installed\")

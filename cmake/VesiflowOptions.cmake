@@ -16,8 +16,8 @@ set(VESIFLOW_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= 
 option(VESIFLOW_COVERAGE "Build with coverage counters" OFF)
 option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_IS_TOP_LEVEL})
 set(VESIFLOW_BUILD_TESTS AUTO CACHE STRING "Build the tests: ON, OFF, or AUTO, if GoogleTest is found and no other project includes this one")
-set(VESIFLOW_TEST_BATCH 1 CACHE STRING
-  "How many sources of a test program are compiled as one: 6 take 0.6 of the time of 1, and 1 sees what each forgets to include")
+set(VESIFLOW_BATCH 1 CACHE STRING
+  "How many sources are compiled as one: 8 take half of the time of 1, and 1 sees what each forgets to include")
 set(VESIFLOW_BUILD_BENCH OFF CACHE STRING "Build the benchmarks: ON, OFF, or AUTO, if Google Benchmark is found")
 option(VESIFLOW_BUILD_FUZZ "Build the fuzz targets, and all else with coverage counters (clang only)" OFF)
 
@@ -69,6 +69,10 @@ endif()
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+if(VESIFLOW_BATCH GREATER 1)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE ${VESIFLOW_BATCH})
 endif()
 if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_EXPORT_COMPILE_COMMANDS ON)

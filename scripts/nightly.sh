@@ -40,19 +40,19 @@ run_tests() {
   grep 'tests passed' "build/$1/ctest.log"
 }
 
-# Tests in batches, but once one by one: then each has to include what it uses.
+# Sources in batches, but once one by one: then each has to include what it uses.
 build_for() {
-  local batch=6
+  local batch=8
   [[ $1 != native ]] || batch=1
   build "nightly-$1" -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_ARCH="$1" -DVESIFLOW_WERROR=ON \
-    -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_TEST_BATCH=$batch -DVESIFLOW_BUILD_BENCH=ON
+    -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BATCH=$batch -DVESIFLOW_BUILD_BENCH=ON
 }
 
 # build_with COMPILER STANDARD SHARED: and consumes what is installed.
 build_with() {
   local name=nightly-$1-$2-shared-$3
   build "$name" -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$1" -DCMAKE_CXX_STANDARD="$2" -DBUILD_SHARED_LIBS="$3" \
-    -DVESIFLOW_WERROR=ON -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=OFF
+    -DVESIFLOW_WERROR=ON -DVESIFLOW_BATCH=8 -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=OFF
   CXX=$1 tests/install_consumer/check.sh "build/$name" -DCMAKE_CXX_STANDARD="$2" -DBUILD_SHARED_LIBS="$3"
 }
 
@@ -61,7 +61,7 @@ build_bare() {
   local options=() package
   for package in SUNDIALS CHOLMOD HDF5; do options+=("-DVESIFLOW_WITH_$package=OFF"); done
   for package in SUNDIALS CHOLMOD HDF5C; do options+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
-  build nightly-bare -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_WERROR=ON -DVESIFLOW_BUILD_TESTS=OFF "${options[@]}"
+  build nightly-bare -S . -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESIFLOW_WERROR=ON -DVESIFLOW_BATCH=8 -DVESIFLOW_BUILD_TESTS=OFF "${options[@]}"
 }
 
 # validate SCRIPT OPTION...: one of validation/robustness/, with the apps for this machine.

@@ -151,7 +151,7 @@ echo "install consumer: an install takes what is built"
 # The same program with the source tree as a part of it, and with one library alone, which does without OpenMP.
 configure "$here/vesicle" subdirectory "${no_optional[@]}" -DVESIFLOW_SOURCE="$here/../.." \
   -DCMAKE_DISABLE_FIND_PACKAGE_OpenMP=ON \
-  -DVESIFLOW_LIBRARIES=vesicle -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PROJECT_TOP_LEVEL_INCLUDES="$here/as_subdirectory.cmake"
+  -DVESIFLOW_LIBRARIES=vesicle -DVESIFLOW_BATCH=8 -DCMAKE_BUILD_TYPE=Debug -DCMAKE_PROJECT_TOP_LEVEL_INCLUDES="$here/as_subdirectory.cmake"
 quietly cmake --build "$scratch/subdirectory"
 quietly "$scratch/subdirectory/curvatures"
 echo "install consumer: vesicle built and ran as a subdirectory"

@@ -16,7 +16,7 @@ for shared in ON OFF; do
     name=$how-$shared
     logged "$scratch/$name.log" "Configuring a project with Vesiflow by $how, BUILD_SHARED_LIBS=$shared" \
       cmake -S "$here/subproject" -B "$scratch/$name" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DHOW="$how" -DBUILD_SHARED_LIBS="$shared" \
-      -DVESIFLOW_SOURCE="$here/../.." -DFETCHCONTENT_SOURCE_DIR_VESIFLOW="$here/../.." -DVESIFLOW_LIBRARIES=vesicle
+      -DVESIFLOW_SOURCE="$here/../.." -DFETCHCONTENT_SOURCE_DIR_VESIFLOW="$here/../.." -DVESIFLOW_LIBRARIES=vesicle -DVESIFLOW_BATCH=8
     logged "$scratch/$name.log" "Compiling it" cmake --build "$scratch/$name"
     logged "$scratch/$name.log" "Running it" "$scratch/$name/curvatures"
   done

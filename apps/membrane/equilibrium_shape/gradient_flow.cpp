@@ -10,8 +10,6 @@
 namespace equilibrium {
 namespace {
 
-constexpr int most_iterations = 2000;
-
 /// Barzilai and Borwein's step (doi:10.1093/imanum/8.1.141): the inverse of the mean curvature of the energy along the
 /// last step.
 double next_step_size(const Eigen::VectorXd& moved, const Eigen::VectorXd& residual_change) {
@@ -23,7 +21,7 @@ double next_step_size(const Eigen::VectorXd& moved, const Eigen::VectorXd& resid
 }  // namespace
 
 SolverReport minimise_by_gradient_flow(ConstrainedEnergy& energy, Eigen::VectorXd& x, const SolverOptions& options) {
-  const int limit = options.most_iterations > 0 ? options.most_iterations : most_iterations;
+  const int limit = options.limit(2000);
   SolverReport report;
   double step_size = 0.2;
   std::deque<double> last_energies;

@@ -35,6 +35,8 @@ struct Iteration {
 struct SolverOptions {
   double tolerance = 1e-9;  ///< on the norm of Stationarity::residual; the energy's error is about its square
   int most_iterations = 0;  ///< 0: the method's own limit
+  /// The most iterations to make, where the method's own limit is `own`.
+  int limit(int own) const { return most_iterations > 0 ? most_iterations : own; }
   std::function<void(const Iteration&)> progress;
 };
 

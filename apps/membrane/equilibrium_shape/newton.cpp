@@ -11,8 +11,6 @@
 namespace equilibrium {
 namespace {
 
-constexpr int most_iterations = 60;
-
 /// Second variation of E + tension A - pressure V in the free directions, shape (free, free), by differences of its
 /// gradient: one gradient evaluation per direction. The error of the differences (about 1e-6) makes Newton's
 /// convergence linear with that factor, which saves the last iteration at most.
@@ -43,7 +41,7 @@ Eigen::VectorXd descent(const Eigen::MatrixXd& second_variation, const Eigen::Ve
 }  // namespace
 
 SolverReport minimise_by_newton(ConstrainedEnergy& energy, Eigen::VectorXd& x, const SolverOptions& options) {
-  const int limit = options.most_iterations > 0 ? options.most_iterations : most_iterations;
+  const int limit = options.limit(60);
   SolverReport report;
   for (;; ++report.iterations) {
     energy.set(x);

@@ -12,11 +12,11 @@ namespace {
 
 using std::exp;
 
-constexpr long double pi = std::numbers::pi_v<long double>;
+constexpr long double long_pi = std::numbers::pi_v<long double>;
 
 // Not the grid's longitude(), which is rounded: the markers should be no worse than the numbers that hold them.
 long double longitude(const SphereGrid& grid, int i) {
-  return 2 * pi * i / grid.longitudes();
+  return 2 * long_pi * i / grid.longitudes();
 }
 
 auto ellipsoid(long double a, long double b, long double c) {
@@ -31,7 +31,7 @@ auto spheroid(long double equatorial, long double polar) {
 
 /// Radius 1 + exp(-3 Re Y_3^2).
 auto y32() {
-  const long double norm = std::sqrt(105 / (2 * pi)) / 4;
+  const long double norm = std::sqrt(105 / (2 * long_pi)) / 4;
   return [norm](const auto& s) {
     using Number = std::decay_t<decltype(s[0])>;
     const Number y = norm * ((s[0] * s[0] - s[1] * s[1]) * s[2]);

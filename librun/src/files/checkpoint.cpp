@@ -17,7 +17,7 @@
 namespace vesiflow::run {
 namespace {
 
-constexpr std::int64_t format_version = 5;
+constexpr std::int64_t checkpoint_format = 5;
 
 template <class Centring>
 void write_field(Hdf5File& file, const std::string& name, const fluid::Field<Centring>& field) {
@@ -207,11 +207,11 @@ void require_checksum(const Hdf5File& file, const std::string& name, std::int64_
 
 void require_format(const Hdf5File& file, const std::filesystem::path& path) {
   const std::int64_t format = file.read_integer("/", "format");
-  if (format != format_version)
+  if (format != checkpoint_format)
     throw SceneError(
         fmt::format("{}: checkpoint of format {}, this version reads format {}: finish the run with the version of the "
                     "program that wrote it, which summary.json names, or start anew from its scene.toml",
-                    path.string(), format, format_version));
+                    path.string(), format, checkpoint_format));
 }
 
 Scene scene_of(const Hdf5File& file, const std::filesystem::path& path, const Overrides& overrides = {}) {
@@ -269,7 +269,7 @@ void write_checkpoint(const std::filesystem::path& path, const SceneSimulation& 
   const coupling::SimulationState state = simulation.state();
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     Hdf5File file(temporary, Hdf5File::Mode::create);
-    file.attribute("/", "format", format_version);
+    file.attribute("/", "format", checkpoint_format);
     const Scene& scene = simulation.scene();
     const std::string text = to_toml(scene);
     file.attribute("/", "scene", text);

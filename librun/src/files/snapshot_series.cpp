@@ -16,7 +16,7 @@
 namespace vesiflow::run {
 namespace {
 
-constexpr std::int64_t format_version = 2;  // 1 had the snapshots themselves in NAME.h5
+constexpr std::int64_t series_format = 2;  // 1 had the snapshots themselves in NAME.h5
 
 // A list is written anew when it lacks more than this share of the snapshots: then its cost per snapshot does not grow either.
 constexpr std::size_t share_not_listed = 50;
@@ -37,10 +37,10 @@ std::optional<long> step_of(std::string_view name, std::string_view kind) {
 void refuse_earlier_format(const std::filesystem::path& list) {
   if (!std::filesystem::exists(list)) return;
   const Hdf5File file(list, Hdf5File::Mode::read);
-  if (const std::int64_t format = file.read_integer("/", "format"); format != format_version)
+  if (const std::int64_t format = file.read_integer("/", "format"); format != series_format)
     throw FileError(
         fmt::format("{}: format {}, this version goes on with format {} only; restart into another folder with --out",
-                    list.string(), format, format_version));
+                    list.string(), format, series_format));
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void SnapshotSeries::write(long step, double time) {
   std::filesystem::create_directory(directory_ / snapshots_folder, told_by_writing);
   write_atomically(directory_ / file_of(step), [&](const std::filesystem::path& temporary) {
     Hdf5File file(temporary, Hdf5File::Mode::create);
-    file.attribute("/", "format", format_version);
+    file.attribute("/", "format", series_format);
     file.attribute("/", "step", static_cast<std::int64_t>(step));
     file.attribute("/", "time", time);
     kind_.fill(file);
@@ -103,7 +103,7 @@ void SnapshotSeries::list() {
   if (listed_ == steps_.size()) return;
   write_atomically(directory_ / (kind_.name + ".h5"), [&](const std::filesystem::path& temporary) {
     Hdf5File file(temporary, Hdf5File::Mode::create);
-    file.attribute("/", "format", format_version);
+    file.attribute("/", "format", series_format);
     kind_.head(file);
     for (const auto& [step, time] : steps_) file.link(fmt::format("/steps/{:09d}", step), file_of(step));
     file.close();

@@ -96,7 +96,7 @@ toml::table parsed_value(const std::string& text) {
   }
 }
 
-constexpr const char* all_keys = " (docs/scene.md lists all)";
+constexpr const char* where_keys_are = " (docs/scene.md lists all)";
 
 }  // namespace
 
@@ -147,7 +147,7 @@ void SceneDocument::refuse_unknown(const std::string& key, const toml::node& nod
   const std::string place = where(key, node);
   const bool is_list = node.is_array_of_tables();
   if (!node.is_table() && !is_list) {
-    add_mistake(fmt::format("{}: {}: there is no such key{}{}", place, key, question(key), all_keys),
+    add_mistake(fmt::format("{}: {}: there is no such key{}{}", place, key, question(key), where_keys_are),
                 line_of(key, node));
     return;
   }
@@ -155,7 +155,7 @@ void SceneDocument::refuse_unknown(const std::string& key, const toml::node& nod
   meant_tables_.insert(meant);
   add_mistake(fmt::format("{}: {}: there is no such table{}{}", place,
                           is_list ? fmt::format("[[{}]]", key) : fmt::format("[{}]", key),
-                          meant.empty() ? "" : fmt::format("; did you mean {}?", header_of(meant)), all_keys),
+                          meant.empty() ? "" : fmt::format("; did you mean {}?", header_of(meant)), where_keys_are),
               line_of(key, node));
 }
 
@@ -194,12 +194,12 @@ void SceneDocument::apply(const std::string& item) {
     return;
   }
   if (is_scene_table(key)) {
-    add_mistake(
-        fmt::format("--set {}: {} is a table of keys: set one of them, as in time.end=2.0{}", item, key, all_keys));
+    add_mistake(fmt::format("--set {}: {} is a table of keys: set one of them, as in time.end=2.0{}", item, key,
+                            where_keys_are));
     return;
   }
   if (!is_scene_key(without_number(key))) {
-    add_mistake(fmt::format("--set {}: there is no key {}{}{}", item, key, question(key), all_keys));
+    add_mistake(fmt::format("--set {}: there is no key {}{}{}", item, key, question(key), where_keys_are));
     return;
   }
   if (key.starts_with(of_vesicles) && (key = numbered(key, item)).empty()) return;

@@ -8,12 +8,12 @@
 namespace vesiflow::vesicle {
 namespace {
 
-struct Legendre {
+struct LegendreValue {
   long double value;       ///< P_n(cos theta)
   long double derivative;  ///< dP_n(cos theta)/dtheta
 };
 
-Legendre legendre(int n, long double theta) {
+LegendreValue legendre(int n, long double theta) {
   const long double x = std::cos(theta);
   long double previous = 1;
   long double current = x;
@@ -37,7 +37,7 @@ GaussLegendre gauss_legendre(int nodes) {
     const long double shrink = 1 - 1.0L / (8.0L * nodes * nodes) + 1.0L / (8.0L * nodes * nodes * nodes);
     long double theta = std::acos(shrink * std::cos(pi * (4 * j + 3) / (4 * nodes + 2)));
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
-      const Legendre p = legendre(nodes, theta);
+      const LegendreValue p = legendre(nodes, theta);
       const long double step = p.value / p.derivative;
       theta -= step;
       if (std::abs(step) < tolerance) break;

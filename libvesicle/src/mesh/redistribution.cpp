@@ -16,7 +16,7 @@ namespace {
 
 constexpr int max_iterations = 30;
 constexpr int conjugate_gradient_steps = 12;
-constexpr double least_gain = 0.02;  // of a Gauss-Newton step, as a fraction of E; less is not worth another
+constexpr double least_step_gain = 0.02;  // of a Gauss-Newton step, as a fraction of E; less is not worth another
 constexpr double least_total_gain = 0.1;
 /// Of volume and area, beyond which the surface was not resolved: as X o y it would be another one.
 constexpr double largest_shape_change = 0.01;
@@ -74,7 +74,7 @@ RedistributionReport MeshRedistribution::redistribute(const Surface& surface) {
     if (!move(original)) break;
     ++report.iterations;
     const double now = energy();
-    const bool worth_it = now < (1 - least_gain) * last;
+    const bool worth_it = now < (1 - least_step_gain) * last;
     last = now;
     if (!worth_it) break;
   }

@@ -11,12 +11,10 @@
 
 #include <Eigen/Geometry>
 
+#include "shapes/point.h"
+
 namespace vesiflow::vesicle {
 namespace {
-
-Vector3 point(const VectorField& x, int i) {
-  return x.row(i).matrix().transpose();
-}
 
 /// Opposite to each corner.
 std::array<double, 3> edge_lengths(const TriangleMesh& mesh, Eigen::Index t) {

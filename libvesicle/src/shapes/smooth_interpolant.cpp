@@ -8,12 +8,10 @@
 
 #include <Eigen/Geometry>
 
+#include "shapes/point.h"
+
 namespace vesiflow::vesicle {
 namespace {
-
-Vector3 point(const VectorField& x, int i) {
-  return x.row(i).matrix().transpose();
-}
 
 VectorField vertex_normals(const TriangleMesh& mesh) {
   VectorField normals = VectorField::Zero(mesh.vertices.rows(), 3);

@@ -18,8 +18,6 @@ namespace {
 
 using vesiflow::values;
 
-constexpr int most_iterations = 2000;
-
 /// dx/dt = -residual - C (C^T C)^{-1} c: down the gradient along the constraints c = 0, with gradients C, and back to them at
 /// unit rate.
 void velocity(ConstrainedEnergy& energy, const Eigen::VectorXd& x, Eigen::Map<Eigen::VectorXd> result) {
@@ -62,7 +60,7 @@ SolverReport minimise_by_cvode(ConstrainedEnergy& energy, Eigen::VectorXd& x, co
   CVodeSetNonlinearSolver(cvode.get(), solver);
 
   SolverReport report;
-  const int limit = options.most_iterations > 0 ? options.most_iterations : most_iterations;
+  const int limit = options.limit(2000);
   Eigen::VectorXd rate(n);
   for (;; ++report.iterations) {
     x = Eigen::Map<const Eigen::VectorXd>(values(state).data(), n);

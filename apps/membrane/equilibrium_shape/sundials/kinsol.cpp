@@ -20,8 +20,6 @@ namespace {
 
 using vesiflow::values;
 
-constexpr int most_iterations = 200;
-
 /// The Euler-Lagrange equation and the constraints for u = (x, tension, pressure), which is the gradient of
 /// E + tension (A - A0) - pressure (V - V0).
 void evaluate(ConstrainedEnergy& energy, std::span<const double> unknowns, std::span<double> residual) {
@@ -58,7 +56,7 @@ SolverReport minimise_by_kinsol(ConstrainedEnergy& energy, Eigen::VectorXd& x, c
       [&energy](std::span<const double> unknowns, std::span<double> residual) { evaluate(energy, unknowns, residual); },
       Function::DomainErrors::try_nearer);
   vesiflow::SundialsMessage message;
-  const int limit = options.most_iterations > 0 ? options.most_iterations : most_iterations;
+  const int limit = options.limit(200);
   KINSetErrHandlerFn(kinsol.get(), vesiflow::SundialsMessage::keep, &message);
   KINInit(kinsol.get(), Function::call, u);
   KINSetUserData(kinsol.get(), &system);
