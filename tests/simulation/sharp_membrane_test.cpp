@@ -72,6 +72,8 @@ void expect_same(SceneSimulation& a, SceneSimulation& b) {
     EXPECT_EQ(x.vesicles[i].motion_history, y.vesicles[i].motion_history);
     ASSERT_EQ(x.vesicles[i].interface_velocity.rows(), y.vesicles[i].interface_velocity.rows());
     EXPECT_TRUE((x.vesicles[i].interface_velocity == y.vesicles[i].interface_velocity).all());
+    ASSERT_EQ(x.vesicles[i].previous_interface_velocity.rows(), y.vesicles[i].previous_interface_velocity.rows());
+    EXPECT_TRUE((x.vesicles[i].previous_interface_velocity == y.vesicles[i].previous_interface_velocity).all());
   }
   EXPECT_TRUE(std::equal(x.velocity.x.data(), x.velocity.x.data() + x.velocity.x.size(), y.velocity.x.data()));
   ASSERT_EQ(x.phases.size(), y.phases.size());
@@ -115,6 +117,11 @@ TEST(SharpMembrane, AStateMustHaveAVelocityOfTheInterfaceThatIsOne) {
     spoil(other.vesicles[0].interface_velocity);
     return other;
   };
+  SimulationState without_previous = simulation.state();
+  without_previous.vesicles[0].previous_interface_velocity.resize(0, 3);
+  EXPECT_NO_THROW(simulation.restore(without_previous));
+  without_previous.vesicles[0].previous_interface_velocity.setZero(7, 3);
+  EXPECT_THROW(simulation.restore(without_previous), std::invalid_argument);
   EXPECT_THROW(simulation.restore(spoilt([](auto& u) { u.conservativeResize(u.rows() - 1, 3); })),
                std::invalid_argument);
   EXPECT_THROW(simulation.restore(spoilt([](auto& u) { u(3, 1) = INFINITY; })), std::invalid_argument);

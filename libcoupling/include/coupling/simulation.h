@@ -36,6 +36,7 @@ struct VesicleState {
   /// Velocity of the membrane (markers x 3) where it is sharp and between two viscosities, else empty: what its
   /// iteration begins with in the next step.
   vesicle::VectorField interface_velocity = {};
+  vesicle::VectorField previous_interface_velocity = {};  ///< the same one step ago; empty if there was none
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {

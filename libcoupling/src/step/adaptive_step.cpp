@@ -94,6 +94,7 @@ void Simulation::remember() {
     remembered_[i].membrane = v.membrane.state();
     remembered_[i].motion_history.assign(history.begin(), history.end());
     remembered_[i].interface_velocity = v.interface_velocity();
+    remembered_[i].previous_interface_velocity = v.previous_interface_velocity();
   }
 }
 
@@ -106,7 +107,8 @@ void Simulation::take_back() {
     vesicles_[i]->membrane.restore(remembered_[i].membrane);
     vesicles_[i]->is_current = false;
     vesicles_[i]->restore_history(fluid_.clock().time_step, remembered_[i].motion_history);
-    vesicles_[i]->restore_interface_velocity(remembered_[i].interface_velocity);
+    vesicles_[i]->restore_interface_velocity(remembered_[i].interface_velocity,
+                                             remembered_[i].previous_interface_velocity);
   }
 }
 

@@ -183,21 +183,25 @@ void ImmersedVesicle::restore_history(double dt, std::span<const double> history
 
 void ImmersedVesicle::carry_interface_velocity(const vesicle::MeshRedistribution& redistribution) {
   if (!two_phase) return;
-  vesicle::VectorField velocity = two_phase->value();
-  for (int axis = 0; axis < 3; ++axis) {
-    vesicle::ScalarField component = velocity.col(axis);
-    redistribution.carry(component);
-    velocity.col(axis) = component;
-  }
-  two_phase->set(velocity);
+  const auto carried = [&](vesicle::VectorField velocity) {
+    for (int axis = 0; axis < 3; ++axis) {
+      vesicle::ScalarField component = velocity.col(axis);
+      if (component.size() > 0) redistribution.carry(component);
+      velocity.col(axis) = component;
+    }
+    return velocity;
+  };
+  two_phase->set(carried(two_phase->value()), carried(two_phase->previous()));
 }
 
-void ImmersedVesicle::restore_interface_velocity(const vesicle::VectorField& velocity) {
+void ImmersedVesicle::restore_interface_velocity(const vesicle::VectorField& velocity,
+                                                 const vesicle::VectorField& previous) {
   const Eigen::Index expected = two_phase ? membrane.positions().rows() : 0;
-  if (velocity.rows() != expected || !velocity.isFinite().all())
+  const bool fits = velocity.rows() == expected && (previous.rows() == expected || previous.rows() == 0);
+  if (!(fits && velocity.isFinite().all() && previous.isFinite().all()))
     throw std::invalid_argument(fmt::format(
         "the velocity of the interface has {} markers, expected {}, and must be finite", velocity.rows(), expected));
-  if (two_phase) two_phase->set(velocity);
+  if (two_phase) two_phase->set(velocity, previous);
 }
 
 void ImmersedVesicle::meet_start(double dt, const fluid::FaceVector& velocity) {

@@ -61,10 +61,13 @@ struct ImmersedVesicle {
 
   /// The velocity of an interface of two viscosities; empty where there is none.
   vesicle::VectorField interface_velocity() const { return two_phase ? two_phase->value() : vesicle::VectorField(); }
+  vesicle::VectorField previous_interface_velocity() const {
+    return two_phase ? two_phase->previous() : vesicle::VectorField();
+  }
   /// To the markers of a new mesh.
   void carry_interface_velocity(const vesicle::MeshRedistribution& redistribution);
   /// \throws std::invalid_argument when there is none and should be, the other way round, or it is not finite.
-  void restore_interface_velocity(const vesicle::VectorField& velocity);
+  void restore_interface_velocity(const vesicle::VectorField& velocity, const vesicle::VectorField& previous);
 
   vesicle::Membrane membrane;
   MarkerTransfer transfer;

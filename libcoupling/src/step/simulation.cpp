@@ -49,13 +49,25 @@ fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameter
   return of_fluid;
 }
 
+// What check() let pass may be too much for a direct solver, which counts exactly.
+fluid::NavierStokes fluid_of(const SimulationParameters& parameters, const ViscosityContrast* contrast,
+                             const Flow& flow) {
+  try {
+    return {grid_of(parameters), fluid_parameters_of(parameters, contrast), flow.velocity, flow.motion};
+  } catch (const std::invalid_argument& error) {
+    throw ParameterError(fmt::format("fluid.velocity_solver = \"{}\", fluid.pressure_solver = \"{}\": {}",
+                                     fluid::name(parameters.fluid.velocity_solver),
+                                     fluid::name(parameters.fluid.pressure_solver), error.what()));
+  }
+}
+
 }  // namespace
 
 Simulation::Simulation(const SimulationParameters& parameters, const Flow& flow)
     : parameters_(checked(parameters, flow)),
       flow_(flow),
       contrast_(contrast_of(parameters_)),
-      fluid_(grid_of(parameters_), fluid_parameters_of(parameters_, contrast_.get()), flow.velocity, flow.motion) {
+      fluid_(fluid_of(parameters_, contrast_.get(), flow)) {
   if (flow.start == FlowStart::flow)
     fluid_.set_velocity([&flow](const fluid::Vector3& x) { return flow.velocity(x, 0.0); });
   if (parameters_.domain.periodic[0]) fluid_.uniform_force()[0] = flow.driving_force;
@@ -251,8 +263,11 @@ SimulationState Simulation::state() const {
                         start_};
   for (const auto& v : vesicles_) {
     const auto history = v->motion->history();
-    state.vesicles.push_back(
-        {v->membrane.state(), {history.begin(), history.end()}, v->redistributions, v->interface_velocity()});
+    state.vesicles.push_back({v->membrane.state(),
+                              {history.begin(), history.end()},
+                              v->redistributions,
+                              v->interface_velocity(),
+                              v->previous_interface_velocity()});
   }
   state.clock.steps = steps();
   if (phase_inertia_ && fluid_.steps() > 0) state.phases = phase_inertia_->state();
@@ -281,7 +296,8 @@ void Simulation::restore(const SimulationState& state) {
     v.restore_history(fluid_.clock().time_step, state.vesicles[i].motion_history);
     v.redistributions = state.vesicles[i].redistributions;
     v.noise.restart();
-    if (fluid_.steps() > 0) v.restore_interface_velocity(state.vesicles[i].interface_velocity);
+    if (fluid_.steps() > 0)
+      v.restore_interface_velocity(state.vesicles[i].interface_velocity, state.vesicles[i].previous_interface_velocity);
     if (v.two_phase) v.update();  // the mean flow is of its present shape
   }
   if (phase_inertia_ && fluid_.steps() > 0) phase_inertia_->restore(state.phases, fluid_);

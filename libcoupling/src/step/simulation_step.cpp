@@ -29,7 +29,9 @@ namespace {
 /// is tried again each time, at the price of about ten steps of a small parameters.
 constexpr long redistribution_interval = 16;
 
-/// Change of a membrane's velocity, relative, below which another solve is not worth it, and the most of them.
+/// Change of a membrane's velocity, relative, below which another solve is not worth it, and the most of them. Against a
+/// tolerance of 1e-6 the inclination of tank_treading_sharp.toml on 32^3 cells differs at t = 2 by less than 0.0005
+/// degrees for ratios from 0.05 to 5 and by 0.02 at ratio 100, where the time step of 1/24 is wrong by as much.
 constexpr double interface_tolerance = 1e-3;
 constexpr int most_interface_passes = 60;
 
@@ -77,6 +79,8 @@ void Simulation::solve_step(double dt) {
 void Simulation::compute_forces(double dt) {
   {
     const PhaseTimer timer(phases_.membrane);
+    for (auto& v : vesicles_)
+      if (v->two_phase && fluid_.steps() > 0) v->two_phase->begin_step(dt / fluid_.clock().time_step);
     for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->predict(dt); });
     for (std::size_t i = 0; i < vesicles_.size(); ++i) check_limits(i);
   }
@@ -98,6 +102,8 @@ void Simulation::spread_forces(double dt) {
     for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(); });
   }
   prepare_inertia(dt);
+  for (auto& v : vesicles_)
+    if (v->two_phase) v->two_phase->begin_iteration();
   put_forces();
   if (!fluid_.grid().has_walls()) hold_the_fluid();
 }
@@ -163,6 +169,8 @@ void Simulation::advance_fluid(double dt) {
 // The implicit terms have moved the membranes otherwise than the fluid has; with their forces it does.
 void Simulation::correct_fluid(double dt) {
   clear_forces();
+  for (auto& v : vesicles_)
+    if (v->two_phase) v->two_phase->begin_iteration();
   put_forces(true);
   fluid_.retry();
   fluid_.step(dt);

@@ -3,11 +3,19 @@
 #include "viscosity/interface_velocity.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "viscosity/rigid_response.h"
 
 namespace vesiflow::coupling {
+namespace {
+
+double product(const vesicle::VectorField& a, const vesicle::VectorField& b, const vesicle::ScalarField& weight) {
+  return ((a * b).rowwise().sum() * weight).sum();
+}
+
+}  // namespace
 
 InterfaceVelocity::InterfaceVelocity(double ratio, Eigen::Index markers)
     : ratio_(ratio),
@@ -15,7 +23,30 @@ InterfaceVelocity::InterfaceVelocity(double ratio, Eigen::Index markers)
       more_rotation_(more_translation_),
       velocity_(vesicle::VectorField::Zero(markers, 3)),
       jump_(vesicle::VectorField::Zero(markers, 3)),
-      change_(vesicle::VectorField::Zero(markers, 3)) {}
+      change_(vesicle::VectorField::Zero(markers, 3)),
+      previous_(vesicle::VectorField::Zero(markers, 3)),
+      last_velocity_(vesicle::VectorField::Zero(markers, 3)),
+      last_change_(vesicle::VectorField::Zero(markers, 3)) {
+  secants_.fill({vesicle::VectorField::Zero(markers, 3), vesicle::VectorField::Zero(markers, 3)});
+}
+
+void InterfaceVelocity::set(const vesicle::VectorField& velocity, const vesicle::VectorField& previous) {
+  velocity_ = velocity;
+  has_previous_ = previous.rows() > 0;
+  if (has_previous_) previous_ = previous;
+  begin_iteration();
+}
+
+void InterfaceVelocity::begin_step(double ratio_of_steps) {
+  if (!has_previous_) {
+    previous_ = velocity_;
+    has_previous_ = true;
+    return;
+  }
+  change_ = velocity_ - previous_;
+  previous_ = velocity_;
+  velocity_ += ratio_of_steps * change_;
+}
 
 void InterfaceVelocity::set_inertia(double a_r2) {
   const RigidResponse mean = rigid_response(a_r2);
@@ -65,12 +96,43 @@ double InterfaceVelocity::improve(const vesicle::Surface& surface, const vesicle
     change_.row(m) += (more_translation_ * velocity + more_rotation_ * turned).transpose().array();
   }
 
+  const double residual = std::sqrt(product(change_, change_, weight));
+  accelerate(weight);
+  const double speed = std::sqrt(product(velocity_, velocity_, weight));
+  return speed > 0.0 ? residual / speed : 0.0;
+}
+
+// U goes to where the map would change it least, were it the affine one that the last passes show, and from there by
+// that least change.
+void InterfaceVelocity::accelerate(const vesicle::ScalarField& weight) {
+  const int known = std::min<int>(passes_, static_cast<int>(secants_.size()));
+  if (passes_ > 0) {
+    // The oldest gives way. Those that stay are orthogonal to each other, and the new one is made so.
+    if (passes_ > known) std::rotate(secants_.begin(), secants_.begin() + 1, secants_.end());
+    Secant& newest = secants_[static_cast<std::size_t>(known - 1)];
+    newest.velocity = velocity_ - last_velocity_;
+    newest.change = change_ - last_change_;
+    for (int k = 0; k < known - 1; ++k) {
+      const Secant& older = secants_[static_cast<std::size_t>(k)];
+      const double square = product(older.change, older.change, weight);
+      if (!(square > 0.0)) continue;
+      const double share = product(older.change, newest.change, weight) / square;
+      newest.velocity -= share * older.velocity;
+      newest.change -= share * older.change;
+    }
+  }
+  last_velocity_ = velocity_;
+  last_change_ = change_;
+  for (int k = 0; k < known; ++k) {
+    const Secant& secant = secants_[static_cast<std::size_t>(k)];
+    const double square = product(secant.change, secant.change, weight);
+    if (!(square > 0.0)) continue;
+    const double share = product(secant.change, change_, weight) / square;
+    velocity_ -= share * secant.velocity;
+    change_ -= share * secant.change;
+  }
   velocity_ += change_;
-  const auto size = [&](const vesicle::VectorField& field) {
-    return std::sqrt((field.square().rowwise().sum() * weight).sum());
-  };
-  const double speed = size(velocity_);
-  return speed > 0.0 ? size(change_) / speed : 0.0;
+  ++passes_;
 }
 
 }  // namespace vesiflow::coupling

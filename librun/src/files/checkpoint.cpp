@@ -72,6 +72,9 @@ void write_vesicle(Hdf5File& file, const std::string& group, const coupling::Ves
                 static_cast<Eigen::Index>(state.motion_history.size()));
   if (state.interface_velocity.size() > 0)
     write_array(file, group + "/interface_velocity", state.interface_velocity.data(), state.interface_velocity.size());
+  if (state.previous_interface_velocity.size() > 0)
+    write_array(file, group + "/previous_interface_velocity", state.previous_interface_velocity.data(),
+                state.previous_interface_velocity.size());
 }
 
 coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
@@ -95,10 +98,13 @@ coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& gro
   m.initial_volume = file.read_number(group, "initial_volume");
   state.redistributions = file.read_integer(group, "redistributions");
   if (file.exists(group + "/motion_history")) state.motion_history = file.read(group + "/motion_history");
-  if (file.exists(group + "/interface_velocity")) {  // of sharp membranes between two viscosities
-    state.interface_velocity.resize(markers, 3);
-    read_into(file, group + "/interface_velocity", state.interface_velocity.data(), 3 * size, path);
-  }
+  const auto read_velocity = [&](const std::string& name, vesicle::VectorField& field) {
+    if (!file.exists(group + name)) return;
+    field.resize(markers, 3);
+    read_into(file, group + name, field.data(), 3 * size, path);
+  };
+  read_velocity("/interface_velocity", state.interface_velocity);  // of sharp membranes between two viscosities
+  read_velocity("/previous_interface_velocity", state.previous_interface_velocity);
   return state;
 }
 

@@ -52,6 +52,7 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
     sum.add(vesicle.redistributions);
     // Other states are summed as they were before there was such a velocity.
     if (vesicle.interface_velocity.size() > 0) add_array(sum, vesicle.interface_velocity);
+    if (vesicle.previous_interface_velocity.size() > 0) add_array(sum, vesicle.previous_interface_velocity);
   }
   if (state.start) {
     sum.add(state.start->run);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "transfer/ellipsoid.h"
 #include "transfer/sharp_body.h"
@@ -86,15 +87,62 @@ TEST(InterfaceVelocity, HasNoFlux) {
   }
 }
 
-// What changes, over what there is.
+// What the map changes, over what there is.
 TEST(InterfaceVelocity, SaysHowMuchItHasChanged) {
   const vesicle::Surface surface = some_surface();
   const VectorField swirl = at_markers(surface, [](const Vector& x) { return Vector(x[1] * x[2], -x[0] * x[2], 0.0); });
   InterfaceVelocity interface(1.0, swirl.rows());
   EXPECT_EQ(interface.improve(surface, VectorField::Zero(swirl.rows(), 3)), 0.0);
   const VectorField tangential = swirl - surface.normal() * (surface.flux(swirl) / surface.area());
+  interface.begin_iteration();
   EXPECT_NEAR(interface.improve(surface, tangential), 1.0, 1e-14);
+  interface.begin_iteration();
   EXPECT_NEAR(interface.improve(surface, 2.0 * tangential), 0.5, 1e-14);
+}
+
+// Straight in time, over steps of any length.
+TEST(InterfaceVelocity, BeginsAStepExtrapolated) {
+  const vesicle::Surface surface = some_surface();
+  const VectorField start = at_markers(surface, rigid), rate = at_markers(surface, [](const Vector&x) { return x; });
+  const auto at = [&](double time) -> VectorField { return start + time * rate; };
+  InterfaceVelocity interface(5.0, start.rows());
+  interface.set(at(0.0));
+  EXPECT_EQ(interface.previous().rows(), 0);
+  interface.begin_step(3.0);  // from one value nothing is known of the rate
+  EXPECT_TRUE((interface.value() == at(0.0)).all());
+  interface.set(at(0.2), interface.previous());
+  interface.begin_step(1.5);
+  EXPECT_LT((interface.value() - at(0.5)).abs().maxCoeff(), 1e-14);
+  EXPECT_TRUE((interface.previous() == at(0.2)).all());
+}
+
+// Of an affine map with three eigenvalues besides zero the fixed point is found in four passes and the next, where repeating the map
+// leaves 0.95^5 of the error.
+TEST(InterfaceVelocity, KnowsFromTheLastPassesWhereTheMapLeads) {
+  const vesicle::Surface surface = some_surface();
+  const VectorField exact = at_markers(surface, rigid);
+  std::vector<VectorField> modes;
+  for (const auto& swirl : {Vector(1, 0, 2), Vector(0, 1, -1), Vector(2, 1, 0)})
+    modes.push_back(at_markers(surface, [&](const Vector& x) { return Vector(swirl.dot(x) * swirl.cross(x)); }));
+  for (VectorField& mode : modes) mode -= surface.normal() * (surface.flux(mode) / surface.area());
+  constexpr double eigenvalues[] = {0.95, -0.8, 0.5};
+  // Coordinates of what is left: the error stays in the span of the modes.
+  const auto error_of = [&](const VectorField& velocity) {
+    Eigen::MatrixXd matrix(3 * exact.rows(), 3);
+    for (int k = 0; k < 3; ++k) matrix.col(k) = modes[std::size_t(k)].matrix().reshaped();
+    return Eigen::Vector3d(matrix.colPivHouseholderQr().solve((velocity - exact).matrix().reshaped()));
+  };
+  InterfaceVelocity interface(1.0, exact.rows());
+  interface.set(exact + modes[0] + 0.5 * modes[1] - modes[2]);
+  double residual = 1.0;
+  for (int pass = 1; pass <= 5; ++pass) {
+    VectorField mapped = exact;
+    const Eigen::Vector3d left = error_of(interface.value());
+    for (int k = 0; k < 3; ++k) mapped += eigenvalues[k] * left[k] * modes[std::size_t(k)];
+    residual = interface.improve(surface, mapped);
+  }
+  EXPECT_LT(residual, 1e-11);
+  EXPECT_LT((interface.value() - exact).abs().maxCoeff(), 1e-10);
 }
 
 /// Solves until the velocity of the membrane answers to itself. Returns the number of solves.

@@ -164,11 +164,14 @@ TEST_F(CheckpointContents, OnlyInterfacesOfTwoViscositiesHaveAVelocity) {
   SceneSimulation sharp(coupling::small_scene({"domain.cells=12", "mesh.latitudes=8", "mesh.tangential_degrees=8",
                                                "time.markers=shape_following", "coupling.method=sharp",
                                                "fluid.inertia=none", "fluid.viscosity_ratio=5"}));
-  sharp.step();
+  for (int step = 0; step < 2; ++step) sharp.step();
   write_checkpoint(path_, sharp);
   EXPECT_TRUE(has_data(path_, "/vesicle_0/interface_velocity"));
   const coupling::SimulationState state = read_checkpoint(path_).state;
   EXPECT_TRUE((state.vesicles[0].interface_velocity == sharp.state().vesicles[0].interface_velocity).all());
+  ASSERT_GT(state.vesicles[0].previous_interface_velocity.rows(), 0);
+  EXPECT_TRUE(
+      (state.vesicles[0].previous_interface_velocity == sharp.state().vesicles[0].previous_interface_velocity).all());
   EXPECT_TRUE((state.vesicles[0].interface_velocity == sharp.marker_velocity(0)).all());
 
   const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
