@@ -18,8 +18,10 @@ function(vesiflow_compile_options target)
     # GCC 12.0 to 12.2 make the undefined registers in their own headers of AVX-512 as `__m512d y = y` and then warn of it wherever
     # that is inlined (GCC bug 105593). Without this warning such a line is taken as meant; all else uninitialised is still found.
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,12.3>>:-Wno-init-self>
-    # Sources that are compiled as one look to GCC like one header, whose types of one file must not be members of others.
-    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage>
+    # Sources that are compiled as one look to GCC like one header, whose types of one file must not be members of others; and what is
+    # local in one hides nothing but names of the others.
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage$<SEMICOLON>-Wshadow=local>
+    $<$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-shadow>
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)
   if(VESIFLOW_SANITIZE)

@@ -20,6 +20,12 @@ void check_argument(bool ok, const char* name, const Value& value, const char* r
   throw std::invalid_argument(message.str());
 }
 
+/// Throws std::invalid_argument unless a penalty's stiffness is finite and >= 0, and what it holds to is finite and > 0.
+inline void check_penalty(double stiffness, const char* name, double target) {
+  check_argument(std::isfinite(stiffness) && stiffness >= 0, "stiffness", stiffness, "finite and >= 0");
+  check_argument(std::isfinite(target) && target > 0, name, target, "finite and > 0");
+}
+
 /// Throws std::invalid_argument unless the array has that many rows (one per marker).
 template <class Array>
 void check_markers(const Array& array, const char* name, Eigen::Index markers) {

@@ -124,7 +124,9 @@ refused "no component 'membrane'" "$scratch"
 
 # The consumer's module path is left as it was: where all is found, and where the first package is missing, or a later one.
 configure "$here/module_path" module_path -DFOUND=ON
-for package in Eigen3 FFTW3 fmt; do
+packages=(Eigen3)
+[[ -e $libraries/libvesiflow_fluid.so ]] || packages+=(FFTW3 fmt)  # which shared libraries bring with them
+for package in "${packages[@]}"; do
   configure "$here/module_path" "module_path_$package" -DFOUND=OFF "-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"
 done
 echo "install consumer: CMAKE_MODULE_PATH is left as it was"

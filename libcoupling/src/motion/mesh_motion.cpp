@@ -17,7 +17,7 @@ using vesicle::Surface;
 using vesicle::Vector3;
 using vesicle::VectorField;
 
-double largest_distance(const VectorField& velocity, const Vector3& from) {
+double greatest_difference(const VectorField& velocity, const Vector3& from) {
   double largest_square = 0.0;
   for (Eigen::Index m = 0; m < velocity.rows(); ++m) {
     double square = 0.0;
@@ -43,7 +43,7 @@ const MeshMotion::Velocities& MeshMotion::find(double dt, const Surface& surface
   normal_velocity_ = (u * surface.normal()).rowwise().sum();
   const vesicle::RigidMotion rigid = vesicle::rigid_motion_of_shape(surface, normal_velocity_);
   const Vector3& v = rigid.velocity;
-  velocities_.largest_speed = largest_distance(u, v);
+  velocities_.largest_speed = greatest_difference(u, v);
   const double turning_speed = radius_ * rigid.angular_velocity.norm();
   const double fastest = constants::fastest_turning * velocities_.largest_speed;
   const Vector3 omega =

@@ -12,8 +12,6 @@
 namespace vesiflow::coupling {
 namespace {
 
-using fluid::Vector3;
-
 constexpr std::array<bool, 3> along_all{true, true, true}, along_x_and_y{true, true, false},
     along_x{true, false, false};
 constexpr std::array<bool, 3> about_all{true, true, true}, about_y{false, true, false},
@@ -40,7 +38,7 @@ class DuctVelocity {
  public:
   DuctVelocity(double peak, const Centre& y, const Centre& z)
       : series_(y.half, z.half), peak_(peak), y_(y), z_(z), last_y_(y.middle), last_z_(z.middle), last_(peak) {}
-  Vector3 operator()(const Vector3& x, double) {
+  fluid::Vector3 operator()(const fluid::Vector3& x, double) {
     if (x[1] != last_y_ || x[2] != last_z_) {
       last_y_ = x[1];
       last_z_ = x[2];
@@ -59,7 +57,7 @@ class DuctVelocity {
 }  // namespace
 
 Flow flow_at_rest() {
-  return {.velocity = [](const Vector3&, double) { return Vector3{}; },
+  return {.velocity = [](const fluid::Vector3&, double) { return fluid::Vector3{}; },
           .may_be_periodic = along_all,
           .may_be_mirrored = about_all,
           .greatest_speed = 0.0,
@@ -68,8 +66,8 @@ Flow flow_at_rest() {
 
 Flow shear_flow(double rate, const Domain& domain) {
   return {.velocity =
-              [rate](const Vector3& x, double) {
-                return Vector3{rate * x[2], 0.0, 0.0};
+              [rate](const fluid::Vector3& x, double) {
+                return fluid::Vector3{rate * x[2], 0.0, 0.0};
               },
           .may_be_periodic = along_x_and_y,
           .may_be_mirrored = about_y,
@@ -80,8 +78,8 @@ Flow shear_flow(double rate, const Domain& domain) {
 
 Flow oscillating_shear_flow(double rate, double omega, const Domain& domain) {
   return {.velocity =
-              [rate, omega](const Vector3& x, double t) {
-                return Vector3{rate * std::cos(omega * t) * x[2], 0.0, 0.0};
+              [rate, omega](const fluid::Vector3& x, double t) {
+                return fluid::Vector3{rate * std::cos(omega * t) * x[2], 0.0, 0.0};
               },
           .motion = fluid::WallMotion::unsteady,
           .may_be_periodic = along_x_and_y,
@@ -94,11 +92,11 @@ Flow oscillating_shear_flow(double rate, double omega, const Domain& domain) {
 
 Flow extension_flow(double rate, Extension kind, const Domain& domain) {
   const bool planar = kind == Extension::planar;
-  const Vector3 rates = planar ? Vector3{rate, 0.0, -rate} : Vector3{rate, -rate / 2, -rate / 2};
-  const Vector3& lower = domain.lower;
+  const fluid::Vector3 rates = planar ? fluid::Vector3{rate, 0.0, -rate} : fluid::Vector3{rate, -rate / 2, -rate / 2};
+  const fluid::Vector3& lower = domain.lower;
   return {.velocity =
-              [rates](const Vector3& x, double) {
-                return Vector3{rates[0] * x[0], rates[1] * x[1], rates[2] * x[2]};
+              [rates](const fluid::Vector3& x, double) {
+                return fluid::Vector3{rates[0] * x[0], rates[1] * x[1], rates[2] * x[2]};
               },
           .may_be_mirrored = {lower[0] == 0.0, lower[1] == 0.0, lower[2] == 0.0},
           .greatest_gradient = std::abs(rate),
@@ -111,9 +109,9 @@ Flow extension_flow(double rate, Extension kind, const Domain& domain) {
 Flow plane_poiseuille_flow(double peak, const Domain& domain) {
   const Centre z = centre_of(domain, 2);
   return {.velocity =
-              [peak, z](const Vector3& x, double) {
+              [peak, z](const fluid::Vector3& x, double) {
                 const double s = (x[2] - z.middle) / z.half;
-                return Vector3{peak * (1.0 - s * s), 0.0, 0.0};
+                return fluid::Vector3{peak * (1.0 - s * s), 0.0, 0.0};
               },
           .may_be_periodic = along_x_and_y,
           .may_be_mirrored = about_y_and_z,

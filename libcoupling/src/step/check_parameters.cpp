@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "coupling/errors.h"
 #include "coupling/flow.h"
@@ -20,7 +21,7 @@ namespace vesiflow::coupling {
 namespace {
 
 // In lengths of the box: coordinates keep ten digits of it.
-constexpr double largest_distance = 1e6;
+constexpr double farthest_from_origin = 1e6;
 
 void check_ranges(const SimulationParameters& given, Mistakes& mistakes) {
   SimulationParameters parameters = given;  // visitors may change what they are shown
@@ -53,11 +54,11 @@ void check_domain(const SimulationParameters& parameters) {
                                        parameters.domain.upper[axis], axis, parameters.domain.lower[axis]));
     const double length = parameters.domain.upper[axis] - parameters.domain.lower[axis];
     const double farthest = std::max(std::abs(parameters.domain.lower[axis]), std::abs(parameters.domain.upper[axis]));
-    if (!(std::isfinite(length) && farthest <= largest_distance * length))
+    if (!(std::isfinite(length) && farthest <= farthest_from_origin * length))
       throw ParameterError(fmt::format(
           "domain.lower[{}] = {:g}, domain.upper[{}] = {:g}: must lie within {:g} times their distance from 0, and "
           "that distance be finite; farther off coordinates have too few digits",
-          axis, parameters.domain.lower[axis], axis, parameters.domain.upper[axis], largest_distance));
+          axis, parameters.domain.lower[axis], axis, parameters.domain.upper[axis], farthest_from_origin));
     if (parameters.domain.mirror[axis] && parameters.domain.periodic[axis])
       throw ParameterError(fmt::format(
           "domain.mirror = {}: {} is periodic too (domain.periodic); a plane of symmetry needs an axis with walls",
@@ -128,13 +129,20 @@ void check_flow(const SimulationParameters& parameters, const Flow& flow) {
 }
 
 void check_physics(const SimulationParameters& parameters) {
-  const bool coupled = parameters.has_viscosity_contrast() && parameters.fluid.inertia != fluid::Inertia::none &&
+  const bool coupled = parameters.has_viscosity_field() && parameters.fluid.inertia != fluid::Inertia::none &&
                        parameters.fluid.viscous_treatment == fluid::ViscousTreatment::implicit;
   if (coupled && parameters.fluid.velocity_solver == fluid::SolverKind::fft)
     throw ParameterError(fmt::format(
         "fluid.velocity_solver = \"fft\": cannot solve for three components coupled by a viscosity that "
         "varies, which fluid.viscous_treatment = \"implicit\" asks for; take auto, pcg or cholmod, or another "
         "treatment"));
+  try {
+    fluid::check_solver_limits(fluid::EllipticProblem::pressure(grid_of(parameters)),
+                               fluid::default_options(parameters.fluid.pressure_solver));
+  } catch (const std::invalid_argument& error) {
+    throw ParameterError(
+        fmt::format("fluid.pressure_solver = \"{}\": {}", fluid::name(parameters.fluid.pressure_solver), error.what()));
+  }
 }
 
 // A membrane that is thin answers faster: too fast for an explicit tension that is right for a thick one.
@@ -272,11 +280,11 @@ void check_within_periods(const SimulationParameters& parameters, std::size_t i,
         fmt::format("vesicles.{}: is {:.4g} long along {}, along which the box repeats after {:.4g}; at "
                     "most {:g} times that",
                     i, to - from, "xyz"[u], length, most_periods));
-  if (!(std::max(std::abs(from), std::abs(to)) <= largest_distance * length))
+  if (!(std::max(std::abs(from), std::abs(to)) <= farthest_from_origin * length))
     throw ParameterError(
         fmt::format("vesicles.{}.centre[{}] = {:g}: must be within {:g} lengths of the box of 0; farther "
                     "off coordinates have too few digits",
-                    i, axis, parameters.vesicles[i].centre[u], largest_distance));
+                    i, axis, parameters.vesicles[i].centre[u], farthest_from_origin));
 }
 
 void check_inside_box(const SimulationParameters& parameters, std::size_t i) {

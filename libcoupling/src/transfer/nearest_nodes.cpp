@@ -17,7 +17,7 @@ namespace {
 constexpr int lanes = 8, most_rows = 8;
 static_assert(lanes <= NearestNodes::smallest_row);
 
-struct Range {
+struct PointRange {
   int from, to;
 };
 
@@ -49,12 +49,12 @@ void NearestNodes::search_planes(const FineSurface& surface, const GridBox& whol
       const auto& x = surface.at(FineSurface::Node{row, column}).position;
       const auto number = static_cast<Key>(row * surface.longitudes() + column);
       const auto range = [&](int axis, int least, int greatest) {
-        return Range{std::max(least, static_cast<int>(std::ceil(box.index_at(axis, x[axis] - reach_)))),
-                     std::min(greatest, static_cast<int>(std::floor(box.index_at(axis, x[axis] + reach_))))};
+        return PointRange{std::max(least, static_cast<int>(std::ceil(box.index_at(axis, x[axis] - reach_)))),
+                          std::min(greatest, static_cast<int>(std::floor(box.index_at(axis, x[axis] + reach_))))};
       };
-      const Range planes = range(2, first, last);
+      const PointRange planes = range(2, first, last);
       if (planes.from > planes.to) continue;
-      const Range rows = range(1, box.first[1], box.last(1)), points = range(0, box.first[0], box.last(0));
+      const PointRange rows = range(1, box.first[1], box.last(1)), points = range(0, box.first[0], box.last(0));
       for (int point = points.from; point <= points.to; point += lanes)
         for (int first_row = rows.from; first_row <= rows.to; first_row += most_rows) {
           const int i = std::min(point, box.last(0) - lanes + 1);

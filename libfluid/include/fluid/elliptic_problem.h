@@ -61,6 +61,8 @@ struct VESIFLOW_FLUID_EXPORT EllipticProblem {
   /// The problem of a velocity-like vector at the faces, zero on walls.
   /// \throws std::invalid_argument likewise.
   static EllipticProblem velocity(const Grid& grid, EllipticForm form, double alpha, Viscosity mu);
+  /// Poisson's equation for a pressure: at the cells, with no flux through walls.
+  static EllipticProblem pressure(const Grid& grid);
 
   Grid grid;                                    ///< the grid of the unknowns
   EllipticForm form = EllipticForm::laplacian;  ///< the operator

@@ -184,6 +184,10 @@ VESIFLOW_FLUID_EXPORT ChosenSolver choose_solver(const EllipticProblem& problem,
 VESIFLOW_FLUID_EXPORT std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& problem,
                                                                            const SolverOptions& options);
 
+/// Refuses what make_elliptic_solver() would refuse for the estimated size of a factor, before any work.
+/// \throws std::invalid_argument with the estimate, the limit and the alternatives.
+VESIFLOW_FLUID_EXPORT void check_solver_limits(const EllipticProblem& problem, const SolverOptions& options);
+
 /// Bytes a solver will take for a problem with the present omp_get_max_threads(): the work arrays of "fft"
 /// (FFTW's own tables are small), an empirical rule for "cholmod", good to a factor of 1.5. Nothing is allocated.
 VESIFLOW_FLUID_EXPORT std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options);

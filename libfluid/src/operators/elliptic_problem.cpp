@@ -40,6 +40,10 @@ EllipticProblem::EllipticProblem(const Grid& grid_, Centring centring, BoundaryC
   }
 }
 
+EllipticProblem EllipticProblem::pressure(const Grid& grid) {
+  return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
+}
+
 EllipticProblem EllipticProblem::velocity(const Grid& grid, EllipticForm form, double alpha, Viscosity mu) {
   EllipticProblem problem(grid, Centring::face_x, BoundaryCondition::dirichlet, alpha, std::move(mu));
   problem.form = form;

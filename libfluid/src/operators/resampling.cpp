@@ -13,17 +13,17 @@ namespace vesiflow::fluid {
 namespace {
 
 // Where a point of the new grid is among those of the old one, along an axis: between first and first + 1.
-struct Place {
+struct PlaceBetween {
   int first = 0;
   double fraction = 0.0;
   bool inside = false;
 };
 
-std::vector<Place> places(const Grid& from, const Grid& to, Centring centring, int axis) {
+std::vector<PlaceBetween> places(const Grid& from, const Grid& to, Centring centring, int axis) {
   constexpr double round_off = 1e-9;  // of a cell
   const double offset = is_face_normal(centring, axis) ? 0.0 : 0.5;
   const int last = point_extent(from, centring)[axis] - 1;
-  std::vector<Place> all(static_cast<std::size_t>(point_extent(to, centring)[axis]));
+  std::vector<PlaceBetween> all(static_cast<std::size_t>(point_extent(to, centring)[axis]));
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double position = to.lower[axis] + (static_cast<double>(i) + offset) * to.spacing(axis);
     const double cells = (position - from.lower[axis]) / from.spacing(axis);
@@ -39,20 +39,20 @@ std::vector<Place> places(const Grid& from, const Grid& to, Centring centring, i
 
 template <class FieldType>
 void interpolate(const FieldType& from, FieldType& to) {
-  std::array<std::vector<Place>, 3> at;
+  std::array<std::vector<PlaceBetween>, 3> at;
   for (int axis = 0; axis < 3; ++axis) at[axis] = places(from.grid(), to.grid(), FieldType::centring, axis);
   for_each_plane(to.extent(), [&](int k) {
-    const Place& z = at[2][k];
+    const PlaceBetween& z = at[2][k];
     if (!z.inside) return;
     for (int j = 0; j < to.extent(1); ++j) {
-      const Place& y = at[1][j];
+      const PlaceBetween& y = at[1][j];
       if (!y.inside) continue;
       // A neighbour of no weight may be beyond the ghosts.
       const int next_y = y.first + (y.fraction > 0.0 ? 1 : 0), next_z = z.first + (z.fraction > 0.0 ? 1 : 0);
       const double* const rows[] = {from.row(y.first, z.first), from.row(next_y, z.first), from.row(y.first, next_z),
                                     from.row(next_y, next_z)};
       for (int i = 0; i < to.extent(0); ++i) {
-        const Place& x = at[0][i];
+        const PlaceBetween& x = at[0][i];
         if (!x.inside) continue;
         const int next_x = x.first + (x.fraction > 0.0 ? 1 : 0);
         const auto along_x = [&](int row) { return std::lerp(rows[row][x.first], rows[row][next_x], x.fraction); };

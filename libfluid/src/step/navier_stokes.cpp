@@ -116,7 +116,7 @@ std::size_t NavierStokes::estimate_memory(const Grid& grid, const FluidParameter
   if (!stokes && variable && parameters.viscous_treatment == ViscousTreatment::implicit) ++vectors;
   std::size_t bytes = 2 * field_bytes(Centring::cell);
   for (const Centring centring : face_centrings) bytes += vectors * field_bytes(centring);
-  bytes += estimate_solver_memory(pressure_problem(grid), parameters.pressure_solver);
+  bytes += estimate_solver_memory(EllipticProblem::pressure(grid), parameters.pressure_solver);
   if (stokes) return bytes + StokesSolver::estimate_memory(grid, parameters.viscosity);
   return bytes + estimate_solver_memory(momentum_problem(grid, parameters, 1.0, 1.0), parameters.velocity_solver);
 }

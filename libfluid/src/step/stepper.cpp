@@ -109,10 +109,6 @@ EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parame
   return EllipticProblem::velocity(grid, EllipticForm::laplacian, a, mu_reference);
 }
 
-EllipticProblem pressure_problem(const Grid& grid) {
-  return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
-}
-
 Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, BoundaryVelocity boundary, WallMotion motion)
     : grid(grid_),
       parameters(checked(grid_, parameters_)),
@@ -121,7 +117,7 @@ Stepper::Stepper(const Grid& grid_, const FluidParameters& parameters_, Boundary
       previous(grid_),
       force(grid_),
       pressure(grid_),
-      pressure_solver(make_elliptic_solver(pressure_problem(grid_), parameters_.pressure_solver)),
+      pressure_solver(make_elliptic_solver(EllipticProblem::pressure(grid_), parameters_.pressure_solver)),
       unit_(grid_, 1.0),
       viscosity_(grid_, parameters.viscosity),
       chi_(grid_) {

@@ -17,7 +17,6 @@ namespace vesiflow::fluid {
 // The velocity problem of a step: a u - mu Lap u, or the coupled operator where a field of viscosity is implicit.
 // mu_reference is used where a field is explicit in part.
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference);
-EllipticProblem pressure_problem(const Grid& grid);
 
 class Stepper {
  public:

@@ -14,7 +14,7 @@ namespace vesiflow::fluid {
 struct SaddleVector {
   explicit SaddleVector(const Grid& grid)
       : velocity(EllipticProblem::velocity(grid, EllipticForm::stress, 0.0, 1.0)),
-        pressure(EllipticProblem(grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0)) {}
+        pressure(EllipticProblem::pressure(grid)) {}
 
   Blocks u() { return velocity.unknowns(); }
   ConstBlocks u() const { return velocity.unknowns(); }

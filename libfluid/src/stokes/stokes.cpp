@@ -33,10 +33,6 @@ const StokesOptions& checked(const StokesOptions& options) {
   return options;
 }
 
-EllipticProblem pressure_problem(const Grid& grid) {
-  return {grid, Centring::cell, BoundaryCondition::neumann, 0.0, 1.0};
-}
-
 }  // namespace
 
 class StokesSolver::System {
@@ -75,7 +71,7 @@ StokesSolver::System::System(const Grid& grid_, const StokesOptions& options_)
       lift_(grid_),
       chi_(grid_),
       sums_(grid_.cells[2] + 1),
-      pressure_solver_(make_elliptic_solver(pressure_problem(grid_), FftOptions{})) {
+      pressure_solver_(make_elliptic_solver(EllipticProblem::pressure(grid_), FftOptions{})) {
   update(1.0);
 }
 
@@ -93,7 +89,7 @@ void StokesSolver::System::update(const Viscosity& mu) {
     solver_ = variable_.get();
     constant_.reset();
   }
-  pressure_solver_->update(pressure_problem(grid));
+  pressure_solver_->update(EllipticProblem::pressure(grid));
   mu_.emplace(grid, mu);
 }
 
@@ -198,7 +194,7 @@ std::size_t StokesSolver::estimate_memory(const Grid& grid, const Viscosity& mu)
   double points = 1.0;
   for (const int cells : grid.cells) points *= cells + 2.5;  // ghosts, and the last faces of one component in three
   std::size_t bytes = static_cast<std::size_t>(sizeof(double) * fields * points);
-  bytes += estimate_solver_memory(pressure_problem(grid), FftOptions{});
+  bytes += estimate_solver_memory(EllipticProblem::pressure(grid), FftOptions{});
   if (!mu.is_constant()) return bytes;
   return bytes +
          estimate_solver_memory(EllipticProblem::velocity(grid, EllipticForm::laplacian, 0.0, 1.0), FftOptions{});

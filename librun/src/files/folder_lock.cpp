@@ -15,13 +15,13 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <thread>
 
 #include "files/atomic_file.h"
 #include "files/descriptor.h"
+#include "files/text_of.h"
 #include "run/errors.h"
 #include "system_message.h"
 
@@ -39,11 +39,6 @@ void wait_a_little() {
 bool is_there(const std::filesystem::path& file) {
   std::error_code error;
   return std::filesystem::symlink_status(file, error).type() != std::filesystem::file_type::not_found;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string line_of(const char* file) {

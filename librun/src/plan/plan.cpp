@@ -246,11 +246,10 @@ void describe_fluid(Plan& plan, const Scene& scene) {
                                    : equal_viscosities;
   plan.part(viscosity.is_variable, "indicator", viscosity.indicator, no_field);
   plan.part(viscosity.is_variable, "variable viscosity", viscosity.treatment, no_field);
-  plan.part(steps_in_time, "pressure",
-            "rotational correction: " +
-                describe_solver({grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0},
-                                scene.fluid.pressure_solver),
-            "fluid.inertia = \"none\"");
+  plan.part(
+      steps_in_time, "pressure",
+      "rotational correction: " + describe_solver(fluid::EllipticProblem::pressure(grid), scene.fluid.pressure_solver),
+      "fluid.inertia = \"none\"");
   plan.part(!steps_in_time, "Stokes solve",
             fmt::format("velocity and pressure together, to a tolerance{}",
                         viscosity.is_variable ? "" : ", with constant coefficients"),

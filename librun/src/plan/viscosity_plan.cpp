@@ -107,7 +107,7 @@ ViscosityPlan plan_viscosity(const Scene& scene) {
   plan.indicator =
       fmt::format("viscosity between {:g} and {:g} from one Poisson equation (fft) for all vesicles", least, greatest);
   plan.treatment = describe_treatment(scene, least, greatest);
-  const fluid::EllipticProblem poisson{grid, fluid::Centring::cell, fluid::BoundaryCondition::neumann, 0.0, 1.0};
+  const auto poisson = fluid::EllipticProblem::pressure(grid);
   plan.indicator_bytes =
       vector_bytes(grid) + field_bytes(grid, fluid::Centring::cell) + solver_bytes(poisson, fluid::FftOptions{});
   return plan;

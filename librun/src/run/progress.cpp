@@ -13,7 +13,7 @@
 namespace vesiflow::run {
 namespace {
 
-std::string duration(double seconds) {
+std::string time_left(double seconds) {
   const long s = std::lround(seconds);
   if (s < 60) return fmt::format("{} s", s);
   if (s < 3600) return fmt::format("{}:{:02d} min", s / 60, s % 60);
@@ -71,7 +71,7 @@ void Progress::show(SceneSimulation& simulation, Clock::time_point now) {
   const double per_time = seconds / (simulation.time() - first_time_);
   const std::string text = fmt::format("step {}{}, t = {:.3f}, {:.3g} s/step, {} left, {}", simulation.steps(),
                                        steps_in_all(simulation), simulation.time(), per_step,
-                                       duration(per_time * std::max(0.0, end - simulation.time())), drift(simulation));
+                                       time_left(per_time * std::max(0.0, end - simulation.time())), drift(simulation));
   if (terminal_) {
     const double fraction = std::min(1.0, simulation.time() / end);
     say(fmt::format("\r{} {:3.0f} % {}\033[K", bar(fraction), 100.0 * fraction, text));

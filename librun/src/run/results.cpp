@@ -12,8 +12,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <system_error>
 
@@ -21,6 +19,7 @@
 #include "files/descriptor.h"
 #include "files/folder_lock.h"
 #include "files/snapshot_series.h"
+#include "files/text_of.h"
 #include "run/errors.h"
 #include "run/vesicle_record.h"
 #include "system_message.h"
@@ -32,7 +31,7 @@ constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle
                                      "fluid.h5",     "fluid.xdmf",      "checkpoint.h5", "scene.toml",
                                      "pictures",     "start.h5",        snapshots_folder};
 
-long step_of(const std::string& row, const std::filesystem::path& file) {
+long step_of_row(const std::string& row, const std::filesystem::path& file) {
   long step = 0;
   if (std::from_chars(row.data(), row.data() + row.size(), step).ec != std::errc())
     throw FileError(fmt::format("{}: damaged: a row begins with \"{}\", not with a step; move the file away to go on",
@@ -53,11 +52,6 @@ void append_rows(const std::filesystem::path& file, const std::string& rows) {
   const FileError error = not_written(file);
   if (ftruncate(descriptor, size) != 0) throw not_written(file);
   throw error;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 std::string column_names(bool has_distances, std::span<const OwnDiagnostic> own) {
@@ -143,7 +137,7 @@ DiagnosticsTable::DiagnosticsTable(const std::filesystem::path& directory, std::
     throw SceneError(fmt::format(
         "{}: has the columns {}this run would write {}take the same RunOptions::diagnostics, or another folder",
         file_.string(), text.substr(0, text.find('\n') + 1), columns_));
-  if (last_row > 0) last_step_ = step_of(text.substr(last_row), file_);
+  if (last_row > 0) last_step_ = step_of_row(text.substr(last_row), file_);
 }
 
 void DiagnosticsTable::rewind(long step) {
@@ -154,7 +148,7 @@ void DiagnosticsTable::rewind(long step) {
   kept += '\n';
   last_step_ = -1;
   while (std::getline(rows, row)) {
-    const long of_row = step_of(row, file_);
+    const long of_row = step_of_row(row, file_);
     if (of_row > step) break;
     last_step_ = of_row;
     kept += row + '\n';

@@ -8,7 +8,7 @@
 namespace vesiflow::run {
 namespace {
 
-constexpr const char* name = "scene";  // in messages
+constexpr const char* unnamed_scene = "scene";  // in messages
 
 Scene with_flow(Scene scene, FlowType type) {
   scene.flow.type = type;
@@ -22,7 +22,7 @@ coupling::Flow started(coupling::Flow flow, const Scene& scene) {
 
 // The parameters are checked by the simulation. Where a scene has other mistakes too, all are said together.
 const Scene& with_checked_keys(const Scene& scene, const coupling::Flow& flow) {
-  if (!mistakes_of_scene_keys(scene).empty()) check_scene(scene, flow, name);
+  if (!mistakes_of_scene_keys(scene).empty()) check_scene(scene, flow, unnamed_scene);
   return scene;
 }
 
@@ -41,7 +41,7 @@ SceneSimulation::SceneSimulation(const Scene& scene, const coupling::Flow& flow,
 catch (const coupling::ParameterError& error) {
   coupling::Mistakes mistakes;
   add_by_key(error, scene, mistakes);
-  refuse_scene(mistakes, name);
+  refuse_scene(mistakes, unnamed_scene);
 }
 
 void SceneSimulation::set_time_step(double dt) {

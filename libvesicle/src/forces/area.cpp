@@ -7,17 +7,8 @@
 #include "check.h"
 
 namespace vesiflow::vesicle {
-namespace {
-
-void check_penalty(double stiffness, double target_area) {
-  check_argument(std::isfinite(stiffness) && stiffness >= 0, "stiffness", stiffness, "finite and >= 0");
-  check_argument(std::isfinite(target_area) && target_area > 0, "target_area", target_area, "finite and > 0");
-}
-
-}  // namespace
-
 void add_area_penalty(const Surface& surface, double stiffness, double target_area, VectorField& force) {
-  check_penalty(stiffness, target_area);
+  check_penalty(stiffness, "target_area", target_area);
   check_markers(force, "force", surface.grid().size());
   const double tension = stiffness * (surface.area() - target_area) / target_area;
   for (int component = 0; component < 3; ++component)
@@ -25,7 +16,7 @@ void add_area_penalty(const Surface& surface, double stiffness, double target_ar
 }
 
 double area_penalty_energy(const Surface& surface, double stiffness, double target_area) {
-  check_penalty(stiffness, target_area);
+  check_penalty(stiffness, "target_area", target_area);
   const double excess = surface.area() - target_area;
   return 0.5 * stiffness * excess * excess / target_area;
 }

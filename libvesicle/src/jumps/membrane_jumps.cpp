@@ -8,16 +8,11 @@
 #include "check.h"
 #include "harmonics/check_grid.h"
 #include "jumps/marker_calculus.h"
+#include "surface/checked_grid.h"
 #include "vesicle/scale_degrees.h"
 
 namespace vesiflow::vesicle {
 namespace {
-
-const SphereGrid& checked(const SphereGrid& grid) {
-  check_argument(grid.latitudes() >= 4 && grid.latitudes() <= Surface::largest_latitudes, "latitudes", grid.latitudes(),
-                 "in [4, 512]");
-  return grid;
-}
 
 const JumpParameters& checked(const JumpParameters& parameters, const SphereGrid& grid) {
   const auto check = [&](int degrees, const char* name) {

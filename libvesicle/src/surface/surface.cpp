@@ -5,17 +5,12 @@
 #include <limits>
 
 #include "check.h"
+#include "surface/checked_grid.h"
 
 namespace vesiflow::vesicle {
 namespace {
 
 constexpr int projector_fields = 6;  // distinct entries of a symmetric 3 x 3 matrix
-
-const SphereGrid& checked(const SphereGrid& grid) {
-  check_argument(grid.latitudes() >= 4 && grid.latitudes() <= Surface::largest_latitudes, "latitudes", grid.latitudes(),
-                 "in [4, 512]");
-  return grid;
-}
 
 }  // namespace
 

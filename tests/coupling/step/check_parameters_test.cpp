@@ -58,6 +58,11 @@ TEST(CheckParameters, RefusesWhatAProgramFillsInWrong) {
             }),
             "domain.cells = [24, 1, 24]: each must be in [8, 2048]");
   EXPECT_NE(refusal([](auto& p) { p.vesicles[0].centre = {2.9, 0, 0}; }).find("off the walls"), std::string::npos);
+  EXPECT_EQ(refusal([](auto& p) {
+              p.domain.cells = {96, 96, 96};
+              p.fluid.pressure_solver = fluid::SolverKind::cholmod;
+            }).rfind("fluid.pressure_solver = \"cholmod\": ", 0),
+            0u);
   EXPECT_NE(refusal([](auto& p) { p.vesicles.clear(); }).find("at least one"), std::string::npos);
 }
 

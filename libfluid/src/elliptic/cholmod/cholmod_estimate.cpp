@@ -61,4 +61,9 @@ void check_limits(const EllipticProblem& problem, const FactorEstimate& estimate
   }
 }
 
+void check_limits(const EllipticProblem& problem, const CholmodOptions& options) {
+  constexpr double slack_of_the_rule = 2.0;
+  check_limits(problem, rule_of_thumb(problem), options, slack_of_the_rule);
+}
+
 }  // namespace vesiflow::fluid

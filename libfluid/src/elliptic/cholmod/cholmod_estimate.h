@@ -20,6 +20,9 @@ struct FactorEstimate {
 // 64^3 cells.
 FactorEstimate rule_of_thumb(const EllipticProblem& problem);
 
+// Throws std::invalid_argument if the rule of thumb, which may be high, is above twice a limit.
+void check_limits(const EllipticProblem& problem, const CholmodOptions& options);
+
 // Throws std::invalid_argument, with the estimate, the limit and the alternatives, if the estimate exceeds
 // `slack` times a limit.
 void check_limits(const EllipticProblem& problem, const FactorEstimate& estimate, const CholmodOptions& options,

@@ -178,8 +178,7 @@ bool CholmodSolver::needs_factorisation(const EllipticProblem& problem) const {
 void CholmodSolver::do_update(const EllipticProblem& problem) {
   ++updates_since_;
   if (!may_reuse()) {
-    constexpr double slack_of_the_rule = 2.0;
-    check_limits(problem, rule_of_thumb(problem), options_, slack_of_the_rule);
+    check_limits(problem, options_);
     auto fresh = std::make_unique<Workspace>(problem);
     fresh->analyse();
     check_limits(problem, fresh->estimate(), options_, 1.0);

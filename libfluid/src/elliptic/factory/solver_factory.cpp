@@ -148,6 +148,18 @@ std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& prob
       options);
 }
 
+void check_solver_limits(const EllipticProblem& problem, const SolverOptions& options) {
+  if (const auto* cholmod = std::get_if<CholmodOptions>(&options)) {
+#ifdef VESIFLOW_WITH_CHOLMOD
+    check_limits(problem, *cholmod);
+#else
+    refuse_cholmod();
+#endif
+  } else if (const auto* pcg = std::get_if<PcgOptions>(&options)) {
+    std::visit([&](const auto& preconditioner) { check_solver_limits(problem, preconditioner); }, pcg->preconditioner);
+  }
+}
+
 std::size_t estimate_solver_memory(const EllipticProblem& problem, const SolverOptions& options) {
   return std::visit(Overloaded{[&](const FftOptions& fft) { return estimate_preconditioner_memory(problem, fft); },
                                [&](const CholmodOptions& cholmod) {

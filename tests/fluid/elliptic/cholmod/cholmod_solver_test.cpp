@@ -113,6 +113,9 @@ TEST(CholmodSolver, RefusesByTheRuleOfThumbWhatIsHopeless) {
               ThrowsMessage<std::invalid_argument>(AllOf(HasSubstr("2097152 unknowns"), HasSubstr("about 21"),
                                                          HasSubstr("memory_limit is 2"), HasSubstr("'fft'"))));
   EXPECT_GT(estimate_solver_memory(problem, CholmodOptions{}), std::size_t{15'000'000'000});
+  EXPECT_THROW(check_solver_limits(problem, CholmodOptions{}), std::invalid_argument);
+  EXPECT_THROW(check_solver_limits(problem, PcgOptions{.preconditioner = CholmodOptions{}}), std::invalid_argument);
+  EXPECT_NO_THROW(check_solver_limits(problem, PcgOptions{}));
 }
 
 // Limits between the exact count and twice the rule of thumb are decided by the analysis.
