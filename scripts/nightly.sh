@@ -13,7 +13,7 @@
 #   memory       scripts/check_memory.sh
 #   fuzz         fuzz/run.sh, ten minutes each target
 #   tidy         clang-tidy on every source
-#   coverage     which share of the lines of the libraries and apps the tests reach, by file in build/coverage/coverage.txt
+#   coverage     which share of the lines of the libraries and apps the tests reach, by file in build/coverage/coverage.txt; fails below 97 %
 #   docs         scripts/docs.sh
 #   kills        validation/robustness/kills.py: 200 runs killed at any moment go on to the same bits
 #   faults       validation/robustness/faults.py: disks, permissions, descriptors and memory that run out
@@ -70,13 +70,17 @@ validate() {
   scripts/python.sh "validation/robustness/$1.py" --apps build/nightly-native/apps "${@:2}"
 }
 
+# In per cent of the lines; there were 98.5 when it was set.
+least_coverage=97
+
 # All tests with counters, which threads share and tests that run side by side add to.
 cover() {
   build coverage --preset coverage
   find build/coverage -name '*.gcda' -delete
   run_tests coverage --test-dir build/coverage
   logged build/coverage/gcovr.log "Counting lines" gcovr --root . --object-directory build/coverage \
-    --filter 'lib[a-z]+/' --filter common/ --filter apps/ --print-summary --txt build/coverage/coverage.txt
+    --filter 'lib[a-z]+/' --filter common/ --filter apps/ --print-summary --txt build/coverage/coverage.txt \
+    --fail-under-line "$least_coverage"
   grep '^lines:' build/coverage/gcovr.log
 }
 

@@ -46,7 +46,10 @@ class Case:
     def run(self, label, keys):
         keys = self.keys | keys
         cells = keys.pop("cells")
-        return Run(label, self.scene, keys | {"domain.cells": [round(cells * part) for part in self.shape]})
+        shape = self.shape
+        if keys.get("coupling.method") == "sharp":  # which knows no planes of symmetry
+            shape, keys = (1, 1, 1), keys | whole_box(keys["domain.upper"])
+        return Run(label, self.scene, keys | {"domain.cells": [round(cells * part) for part in shape]})
 
     def spacing(self, keys):
         return self.width / keys["cells"]
@@ -71,20 +74,33 @@ class Case:
         return found
 
 
-SHORT = {"mesh.latitudes": "{} lat", "time.step": "dt {}", "time.markers": "{}",
+def whole_box(upper):
+    return {"domain.lower": [-end for end in upper], "domain.mirror": [False, False, False]}
+
+
+SHORT = {"coupling.method": "{}", "mesh.latitudes": "{} lat", "time.step": "dt {}", "time.markers": "{}",
          "membrane.sigma0": "sigma0 {}", "fluid.viscous_treatment": "{} viscosity", "fluid.inertia": "inertia {}", "coupling.kernel": "{}",
          "fluid.velocity_solver": "{}", "membrane.integral_rate": "r {}", "time.tolerance": "tol {}", "time.implicit_tolerance": "to {}",
          "method.preset": "{} preset",
          "method.accuracy": "accuracy {}"}
 
 
-USUAL = {"time.markers": "shape_following", "fluid.viscous_treatment": "extrapolated", "coupling.kernel": "smoothed4"}
+USUAL = {"time.markers": "shape_following", "fluid.viscous_treatment": "extrapolated", "coupling.kernel": "smoothed4",
+         "coupling.method": "delta"}
 CORRECTED, PLAIN = {"coupling.thickness_correction": True}, {"coupling.thickness_correction": False}
+SHARP = {"coupling.method": "sharp"} | PLAIN
+SHARP_SLOW = SHARP | {"fluid.inertia": "none"}
 
 
 def estimate(name, width, grids, common):
     """The polynomial in the spacing through runs on these grids, at zero."""
     weights = extrapolation.weights_at_zero([width / n for n in grids])
+    return Estimate(name, [(w, common | {"cells": n}) for w, n in zip(weights, grids)])
+
+
+def estimate_of_second_order(name, width, grids, common):
+    """The polynomial in the square of the spacing through runs on these grids, at zero."""
+    weights = extrapolation.weights_at_zero([(width / n) ** 2 for n in grids])
     return Estimate(name, [(w, common | {"cells": n}) for w, n in zip(weights, grids)])
 
 
@@ -105,10 +121,16 @@ def explicit_tension(markers, cells, width, g=4.0, **keys):
             "time.step": f"1/{steps}", **PLAIN, **keys}
 
 
-def grid_sweep(width, grids, step, *corrections):
-    for keys in corrections:
+def family(keys):
+    if "coupling.method" in keys:
+        return "sharp, no inertia" if "fluid.inertia" in keys else "sharp"
+    return "corrected" if keys is CORRECTED else "plain"
+
+
+def grid_sweep(width, grids, step, *methods):
+    for keys in methods:
         for n in grids:
-            yield ("corrected" if keys is CORRECTED else "plain"), "grid", {
+            yield family(keys), "grid", {
                 "cells": n, "mesh.latitudes": latitudes(width, n), "time.step": f"1/{step}"} | keys
 
 
@@ -166,6 +188,10 @@ def contrast_case(name, ratio, rotation, end, since, quick, title):
     base = {"cells": 64, "mesh.latitudes": 32, "time.step": f"1/{slow}"} | CORRECTED
     coarse = {"cells": 32, "mesh.latitudes": 16, "time.step": f"1/{slow}"} | CORRECTED
     sweeps = [*grid_sweep(width, (24, 32, 48) if quick else (24, 32, 48, 64, 96, 128), slow, CORRECTED, PLAIN)]
+    sharp_grids = (24, 32, 48) if quick else (24, 32, 48, 64, 80)
+    for step in (24, 48):
+        sweeps += grid_sweep(width, sharp_grids, step, SHARP)
+    sweeps += grid_sweep(width, sharp_grids[:3], 24, SHARP_SLOW)
     for at in (coarse,) if quick else (coarse, base):
         for n in (16, 24) if at is coarse else (24, 32, 48):
             sweeps.append(("latitudes", "latitudes", at | {"mesh.latitudes": n}))
@@ -186,17 +212,25 @@ def contrast_case(name, ratio, rotation, end, since, quick, title):
     pairs = ((48, 32),) if quick else ((48, 32), (64, 48), (96, 64), (128, 96))
     recipes = tuple(estimate(f"{coarse} and {n} to h = 0, {latitudes(width, n)} lat", width, (n, coarse),
                              {"mesh.latitudes": latitudes(width, n), "time.step": f"1/{slow}"} | CORRECTED) for n, coarse in pairs)
+    sharp = (48, 32) if quick else (96, 64)
+    # Of second order for the sharp membrane.
+    sharp_recipes = tuple(
+        estimate_of_second_order(f"sharp, {coarse} and {n} to h = 0, {latitudes(width, n)} lat", width, (n, coarse),
+                                 {"mesh.latitudes": latitudes(width, n), "time.step": f"1/{slow}"} | SHARP) for n, coarse in pairs[:2])
+    fine_sharp = {"mesh.latitudes": 32 if quick else 48, "time.step": f"1/{slow}"} | SHARP
     return Case(
         name, title, "scenes/paper/half_box.toml",
         {"domain.lower": [-4, 0, -4], "domain.upper": [4, 4, 4], "vesicles.0.rotation_deg": rotation, "time.end": end,
          "fluid.viscosity_ratio": ratio, "membrane.sigma0": 9000 if ratio < 10 else 2000,
          "output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2},
-        sweeps, estimate("extrapolated from three grids, corrected", width, grids, fine | CORRECTED),
-        [estimate("extrapolated from two grids, corrected", width, grids[:2], fine | CORRECTED),
+        sweeps, estimate_of_second_order("sharp, extrapolated from two grids", width, sharp, fine_sharp),
+        [finest("sharp, the finest grid", sharp[0], fine_sharp),
+         estimate("extrapolated from three grids, corrected", width, grids, fine | CORRECTED),
          estimate("extrapolated from three grids, plain", width, grids, fine | PLAIN)],
         [("time step", {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32},
           {"cells": 64} | fine | CORRECTED | {"mesh.latitudes": 32, "time.step": "1/384"})],
-        {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency"}, since, width, (1, 0.5, 1), recipes)
+        {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency"}, since, width, (1, 0.5, 1),
+        recipes + sharp_recipes)
 
 
 def relaxation_case(quick):
