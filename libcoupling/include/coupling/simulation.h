@@ -216,6 +216,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void update_viscosity();
   void advance_fluid(double dt);
   void correct_fluid(double dt);
+  void find_neighbours();
   void iterate_interfaces(double dt);
   double improve_interfaces();
   void prepare_inertia(double dt);
@@ -249,8 +250,9 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::unique_ptr<PhysicalVelocity> physical_velocity_;  // where it is not that of the fluid
   std::unique_ptr<PhaseInertia> phase_inertia_;          // where two viscosities and inertia meet, if sharp
   fluid::Vector3 mean_flow_{};                           // which the fluid's velocity lacks, of the last solve
-  int interface_passes_ = 0;                             // of the last step
-  long extra_steps_ = 0;                                 // of the fluid, by parts of steps
+  std::vector<std::vector<std::size_t>> neighbours_;  // of each sharp membrane, those that its markers may read inside
+  int interface_passes_ = 0;                          // of the last step
+  long extra_steps_ = 0;                              // of the fluid, by parts of steps
   long rejected_steps_ = 0;
   long last_step_ = 0;
   std::unique_ptr<BlowUpGuard> guard_;

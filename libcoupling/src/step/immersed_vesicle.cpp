@@ -125,12 +125,12 @@ void ImmersedVesicle::predict(double dt) {
   update();
 }
 
-void ImmersedVesicle::meet_grid() {
+void ImmersedVesicle::meet_grid(bool has_neighbours) {
   transfer.update(membrane.positions());
   if (!sharp) return;
   all_force_ = force();
   if (const vesicle::VectorField* owed = motion->owed_force()) all_force_ += *owed;
-  sharp->update(membrane.surface());
+  sharp->update(membrane.surface(), has_neighbours);
 }
 
 void ImmersedVesicle::read_sharp(const fluid::FaceVector& velocity, vesicle::VectorField& at_markers) const {

@@ -34,8 +34,8 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
-  /// Looks up where the membrane is on the grid.
-  void meet_grid();
+  /// Looks up where the membrane is on the grid; whether others are so near that their markers read inside it.
+  void meet_grid(bool has_neighbours = false);
   /// Takes off the grid what it has put there before.
   void clear(fluid::NavierStokes& fluid);
   /// Puts its force on it; with `correction`, also that which its motion corrects the fluid by.

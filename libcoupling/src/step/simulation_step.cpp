@@ -99,13 +99,39 @@ void Simulation::spread_forces(double dt) {
   }
   {
     const PhaseTimer timer(phases_.spread);
-    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(); });
+    find_neighbours();
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(!neighbours_[i].empty()); });
   }
   prepare_inertia(dt);
   for (auto& v : vesicles_)
     if (v->two_phase) v->two_phase->begin_iteration();
   put_forces();
   if (!fluid_.grid().has_walls()) hold_the_fluid();
+}
+
+// Sharp membranes whose boxes are so near to each other that markers of the one may read inside the other.
+void Simulation::find_neighbours() {
+  neighbours_.resize(vesicles_.size());
+  for (auto& of_one : neighbours_) of_one.clear();
+  if (vesicles_.size() < 2 || !vesicles_[0]->sharp) return;
+  const fluid::Grid& grid = fluid_.grid();
+  const auto are_near = [&](const ImmersedVesicle& a, const ImmersedVesicle& b) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto x = a.membrane.positions().col(axis), y = b.membrane.positions().col(axis);
+      const double low = y.minCoeff() - x.maxCoeff(), high = y.maxCoeff() - x.minCoeff();
+      // Some image of the second box is from `low` to `high` of the first, give or take what is read.
+      const double reach = a.sharp->reading_reach();
+      const double shift = grid.periodic[axis] ? std::ceil((low - reach) / grid.length(axis)) * grid.length(axis) : 0.0;
+      if (low - shift > reach || high - shift < -reach) return false;
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < vesicles_.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (are_near(*vesicles_[i], *vesicles_[j])) {
+        neighbours_[i].push_back(j);
+        neighbours_[j].push_back(i);
+      }
 }
 
 void Simulation::clear_forces() {
@@ -121,6 +147,8 @@ void Simulation::clear_forces() {
 void Simulation::put_forces(bool correction) {
   const PhaseTimer timer(phases_.spread);
   for (auto& v : vesicles_) v->put_force(fluid_, correction);
+  for (std::size_t i = 0; i < vesicles_.size(); ++i)
+    for (const std::size_t other : neighbours_[i]) vesicles_[i]->sharp->read_past(*vesicles_[other]->sharp);
   if (phase_inertia_) phase_inertia_->add_to(fluid_.force());
 }
 

@@ -128,7 +128,9 @@ class Walkers {
                    up = cos_theta_[at(i)] * sz + sin_theta_[at(i)] * level;
       const double east = cos_phi_[at(i)] * sy - sin_phi_[at(i)] * sx,
                    out = cos_phi_[at(i)] * sx + sin_phi_[at(i)] * sy;
-      is_near_[at(i)] = (std::abs(south) < largest_tangent * up) & (std::abs(east) < largest_tangent * out) ? 1.0 : 0.0;
+      const double near_south = std::abs(south) < largest_tangent * up ? 1.0 : 0.0;
+      const double near_east = std::abs(east) < largest_tangent * out ? 1.0 : 0.0;
+      is_near_[at(i)] = near_south * near_east;
       south_[at(i)] = angle_of_tangent(south / up);
       east_[at(i)] = angle_of_tangent(east / out);
     }

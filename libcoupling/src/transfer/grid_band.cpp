@@ -43,6 +43,7 @@ void GridBand::update(const FineSurface& surface, double width, const vesicle::V
 }
 
 void GridBand::evaluate(const FineSurface& surface, int record) {
+  reads_past_others_ = false;
   in_shares(static_cast<Eigen::Index>(points_.size()), [&](Eigen::Index begin, Eigen::Index end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       const Point& point = points_[i];
@@ -55,6 +56,38 @@ void GridBand::evaluate(const FineSurface& surface, int record) {
       to_mean_[at] = std::copysign(0.5, -d) * jump;
     }
   });
+}
+
+void GridBand::read_past(const GridBand& other) {
+  // The places of an index of the other box in this one: every period has one.
+  std::array<int, 3> first_image, images;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int period = period_[axis];
+    const int above = box_.last(axis) - other.box_.first[axis], below = box_.first[axis] - other.box_.last(axis);
+    if (above < 0 && period == 0) return;
+    if (below > 0 && period == 0) return;
+    const auto floor_of = [](int a, int b) { return a / b - (a % b < 0 ? 1 : 0); };
+    first_image[axis] = period == 0 ? 0 : period * -floor_of(-below, period);
+    images[axis] = period == 0 ? 1 : std::max(0, floor_of(above, period) - first_image[axis] / period + 1);
+    if (images[axis] == 0) return;
+  }
+  const std::array<int, 3> step{period_[0], period_[1], period_[2]};
+  for (int c = 0; c < images[2]; ++c)
+    for (int b = 0; b < images[1]; ++b)
+      for (int a = 0; a < images[0]; ++a)
+        for (const Point& point : other.points_) {
+          if (!(point.distance() < 0.0)) continue;
+          const int i = point.index[0] + first_image[0] + a * step[0],
+                    j = point.index[1] + first_image[1] + b * step[1],
+                    k = point.index[2] + first_image[2] + c * step[2];
+          if (!box_.contains(i, j, k)) continue;
+          if (!reads_past_others_) {
+            resize_with_room(to_read_, box_.size());
+            std::ranges::copy(to_mean_, to_read_.begin());
+            reads_past_others_ = true;
+          }
+          to_read_[static_cast<std::size_t>(box_.offset(i, j, k))] += other.jump(point.at);
+        }
 }
 
 void GridBand::frame(const FineSurface& surface, double width, const vesicle::VectorField* readers) {

@@ -74,8 +74,13 @@ class GridBand {
   /// What takes the value at a point, which is that of its side, to the mean of both sides: half the jump inside, less
   /// half of it outside.
   double to_mean(std::ptrdiff_t at) const { return to_mean_[static_cast<std::size_t>(at)]; }
-  /// The same, as a pointer into the box.
-  const double* to_mean(int i, int j, int k) const { return to_mean_.data() + offset(i, j, k); }
+  /// Another surface has a jump too, which is evaluated: readers of this one find at points inside of the other what is
+  /// outside of it, continued. Until the next evaluate().
+  void read_past(const GridBand& other);
+  /// What readers add to the values at points, as a pointer into the box: to_mean(), and what others add.
+  const double* to_read(int i, int j, int k) const {
+    return (reads_past_others_ ? to_read_ : to_mean_).data() + offset(i, j, k);
+  }
 
   /// Points along each axis that a reader reads.
   static constexpr int read_points = 4;
@@ -100,6 +105,8 @@ class GridBand {
   std::array<std::vector<int>, 3> in_grid_;
   NearestNodes nearest_;
   std::vector<double> distance_, jump_, to_mean_;
+  std::vector<double> to_read_;  // only where others are near
+  bool reads_past_others_ = false;
   std::vector<NearestNodes::Key> limits_;  // of the keys of candidates
   std::vector<int> first_of_plane_;        // among the points
   std::vector<Point> points_;

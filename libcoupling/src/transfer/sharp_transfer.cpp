@@ -62,7 +62,7 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
   bands_.emplace_back(grid, fluid::Centring::cell);
 }
 
-void SharpTransfer::update(const vesicle::Surface& surface) {
+void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours) {
   jumps_.update(surface);
   fine_.update(surface, node_distance * grid_.min_spacing());
   positions_ = surface.positions();
@@ -70,8 +70,10 @@ void SharpTransfer::update(const vesicle::Surface& surface) {
   // f is at faces within reach, whose differences take in the next faces and the cells on both sides; r is at cells
   // within reach at most, and takes in the faces on both sides.
   const double reach = force_reach();
-  for (std::size_t c = 0; c < 3; ++c)
-    bands_[c].update(fine_, reach + more_reach_ + (1.0 + slack) * spacing_, &positions_);
+  // A neighbour's marker outside reads no deeper inside than the diagonal of what it reads along the axes.
+  const double velocity_reach =
+      std::max(reach + more_reach_ + (1.0 + slack) * spacing_, has_neighbours ? std::sqrt(3.0) * reading_reach() : 0.0);
+  for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, velocity_reach, &positions_);
   bands_[pressure_band].update(fine_, reach + (0.5 + slack) * spacing_);
 }
 
@@ -83,6 +85,10 @@ void SharpTransfer::set_force(const vesicle::VectorField& force, const vesicle::
   fine_.set(jumps_.coefficients(), slots(velocity_jump != nullptr));
   for (int c = 0; c < 4; ++c) bands_[static_cast<std::size_t>(c)].evaluate(fine_, FineSurface::jumps + c);
   force_ = force;
+}
+
+void SharpTransfer::read_past(const SharpTransfer& other) {
+  for (std::size_t c = 0; c < 3; ++c) bands_[c].read_past(other.bands_[c]);
 }
 
 // 1 inside, 0 outside.
@@ -270,7 +276,7 @@ double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView
     planes[a] = band.in_grid(2, first[2] + a) * u.plane_stride;
   }
   const bool is_whole = columns[width - 1] - columns[0] == width - 1;
-  const double* to_mean = band.to_mean(first[0], first[1], first[2]);
+  const double* to_read = band.to_read(first[0], first[1], first[2]);
   Four sum = Four::Zero();
   for (int c = 0; c < width; ++c)
     for (int b = 0; b < width; ++b) {
@@ -280,7 +286,7 @@ double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView
         value = Eigen::Map<const Four>(row + columns[0]);
       else
         for (int a = 0; a < width; ++a) value[a] = row[columns[a]];
-      value += Eigen::Map<const Four>(to_mean + c * band.stride(2) + b * band.stride(1));
+      value += Eigen::Map<const Four>(to_read + c * band.stride(2) + b * band.stride(1));
       sum += weight[2][c] * weight[1][b] * value;
     }
   return (sum * weight[0]).sum();

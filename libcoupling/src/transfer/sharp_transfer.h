@@ -40,13 +40,20 @@ class SharpTransfer {
   SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters);
 
   /// Takes a membrane's shape. Jumps, forces and velocities that follow are on it.
-  void update(const vesicle::Surface& surface);
+  /// \param has_neighbours whether markers of others may read inside it
+  void update(const vesicle::Surface& surface, bool has_neighbours = false);
+  /// How far from a membrane its markers read, along each axis.
+  double reading_reach() const { return 0.5 * GridBand::read_points * spacing_; }
 
   /// Takes its force per area on the fluid (markers x 3). \param velocity_jump [u] (markers x 3), none if null
   void set_force(const vesicle::VectorField& force, const vesicle::VectorField* velocity_jump = nullptr);
 
   /// Adds f and r; what lacks of force and torque goes by `delta`, which knows the markers.
   void add_to(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source, MarkerTransfer& delta);
+
+  /// Another membrane is near, which has its force: markers read at points inside it what is outside, continued. Until the next
+  /// set_force().
+  void read_past(const SharpTransfer& other);
 
   /// Sets to zero where add_to() has added since the last clear().
   void clear(fluid::FaceVector& density, fluid::Field<fluid::Cell>& source);

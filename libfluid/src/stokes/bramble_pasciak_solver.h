@@ -37,7 +37,6 @@ class BramblePasciakSolver final : public SaddleSolver {
   Grid grid_;
   Viscosity mu_ = 1.0;
   VelocityMultigrid multigrid_;
-  double scale_;                                              // s
   SaddleVector preconditioned_, direction_, product_, work_;  // M^-1 r, p, K p
   GhostedBlocks viscous_direction_;                           // A p
   PlaneSums sums_;

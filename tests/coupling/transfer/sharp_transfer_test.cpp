@@ -273,6 +273,51 @@ TEST(SharpTransfer, ReadsASmoothVelocity) {
       EXPECT_NEAR(found(m, component), cubic(x(m, 0), x(m, 1), x(m, 2), component), 1e-13);
 }
 
+// What is inside a neighbour a third of a spacing away, across the periodic end too, is read as what is outside of it, continued: whatever
+// its jump is, the velocity read is that without it.
+TEST(SharpTransfer, ReadsPastANeighbour) {
+  const fluid::Grid grid({-1.5, -2, -2}, {3.0, 2, 2}, {22, 20, 20}, {.periodic = {true, false, false}});
+  const double apart = 1.6 + 0.3 * grid.spacing(1);
+  for (const double offset : {apart, apart - grid.length(0)}) {
+    SharpBody first = body_in(grid), second = body_in(grid, middle + Vector(offset, 0, 0));
+    for (SharpBody* body : {&first, &second}) {
+      body->sharp.update(body->surface, true);
+      const VectorField jump = some_velocity_jump(body->surface);
+      body->sharp.set_force(some_force(body->surface.positions()), &jump);
+    }
+    fluid::FaceVector velocity = test::random_field(grid);
+    const VectorField alone = first.read(velocity);
+    const auto views = velocity.points();
+    for (int c = 0; c < 3; ++c) {
+      const GridBand& band = second.sharp.band(c);
+      for (const GridBand::Point& point : band.points())
+        if (point.distance() < 0.0)
+          views[std::size_t(c)](band.in_grid(0, point.index[0]), band.in_grid(1, point.index[1]),
+                                band.in_grid(2, point.index[2])) -= band.jump(point.at);
+    }
+    EXPECT_GT((first.read(velocity) - alone).abs().maxCoeff(), 0.05) << offset;
+    first.sharp.read_past(second.sharp);
+    EXPECT_LT((first.read(velocity) - alone).abs().maxCoeff(), 1e-13) << offset;
+    first.sharp.set_force(some_force(first.surface.positions()));  // forgets the neighbour
+    EXPECT_GT((first.read(velocity) - alone).abs().maxCoeff(), 0.05) << offset;
+  }
+}
+
+// Every point inside a body that a marker outside it may read knows its jump.
+TEST(SharpTransfer, NeighboursReadWhereTheJumpIsKnown) {
+  const fluid::Grid grid = box(false);
+  SharpBody body = body_in(grid);
+  body.sharp.update(body.surface, true);
+  const double deepest = std::sqrt(3.0) * body.sharp.reading_reach();
+  for (int c = 0; c < 3; ++c) {
+    const GridBand& band = body.sharp.band(c);
+    double deepest_known = 0.0;
+    for (const GridBand::Point& point : band.points())
+      if (point.distance() != GridBand::far) deepest_known = std::min(deepest_known, point.distance());
+    EXPECT_LT(deepest_known, -0.9 * deepest) << c;
+  }
+}
+
 TEST(SharpTransfer, GivesTheSameBitsForEveryNumberOfThreads) {
   const int before = omp_get_max_threads();
   const fluid::Grid grid = box(true);

@@ -149,7 +149,7 @@ std::unique_ptr<EllipticSolver> make_elliptic_solver(const EllipticProblem& prob
 }
 
 void check_solver_limits(const EllipticProblem& problem, const SolverOptions& options) {
-  if (const auto* cholmod = std::get_if<CholmodOptions>(&options)) {
+  if ([[maybe_unused]] const auto* cholmod = std::get_if<CholmodOptions>(&options)) {
 #ifdef VESIFLOW_WITH_CHOLMOD
     check_limits(problem, *cholmod);
 #else
