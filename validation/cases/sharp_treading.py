@@ -65,6 +65,10 @@ def order_of(values, n):
     return low
 
 
+def shown(order):
+    return "" if math.isnan(order) else f"{order:.1f}"
+
+
 def compute(context):
     n = cells(context)
     runs = {(*body, m, k): run_of(*body, m, k) for body in BODIES for m in methods_of(body) for k in n}
@@ -90,7 +94,7 @@ def compute(context):
     columns = ["reduced volume", "ratio", "h"]
     for m in ORDERS:
         columns += [f"{m}: angle, degrees", "off", "frequency", "off"]
-    orders = [[*body, *(f"{order_of(course(body, SHARP, q), n):.1f}" for q in ("angle_deg", "frequency"))] for body in BODIES]
+    orders = [[*body, *(shown(order_of(course(body, SHARP, q), n)) for q in ("angle_deg", "frequency"))] for body in BODIES]
     values["tables"] = [table("", columns, rows),
                         table("Orders of the sharp membrane", ["reduced volume", "ratio", "of the angle", "of the frequency"], orders)]
     return values

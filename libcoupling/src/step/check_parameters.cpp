@@ -181,6 +181,14 @@ void check_sharp(const SimulationParameters& parameters) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (parameters.domain.mirror[axis])
       refuse(fmt::format("takes no mirrors; set domain.mirror[{}] to false and compute the whole box", axis));
+  // Nearer to a wall markers would read points beyond it, and faces on it would take a force.
+  constexpr double clearance = 1.5;
+  const bool has_walls = std::ranges::any_of(parameters.domain.periodic, [](bool periodic) { return !periodic; });
+  if (has_walls && wall_clearance(parameters.coupling.kernel) < clearance)
+    refuse(
+        fmt::format("must keep {:g} grid spacings off walls, and coupling.kernel = \"{}\" lets membranes come as near "
+                    "as {:g}; take \"smoothed4\"",
+                    clearance, name(parameters.coupling.kernel), wall_clearance(parameters.coupling.kernel)));
 }
 
 void check_gravity(const SimulationParameters& parameters) {

@@ -66,6 +66,28 @@ TEST(CheckParameters, RefusesWhatAProgramFillsInWrong) {
   EXPECT_NE(refusal([](auto& p) { p.vesicles.clear(); }).find("at least one"), std::string::npos);
 }
 
+TEST(CheckParameters, SharpMembranesNeedAKernelThatKeepsThemOffWalls) {
+  SimulationParameters parameters = one_vesicle();
+  parameters.coupling.method = CouplingMethod::sharp;
+  parameters.time.markers = MarkerMotion::shape_following;
+  for (const DeltaKernel kernel : {DeltaKernel::three_point, DeltaKernel::four_point, DeltaKernel::smoothed_four_point,
+                                   DeltaKernel::composite_bspline_32}) {
+    parameters.coupling.kernel = kernel;
+    parameters.domain.periodic = {};
+    const std::vector<std::string> mistakes = mistakes_of(parameters);
+    ASSERT_EQ(mistakes.size(), wall_clearance(kernel) < 1.5 ? 1u : 0u) << name(kernel);
+    if (!mistakes.empty()) {
+      EXPECT_NE(mistakes[0].find("must keep 1.5 grid spacings off walls"), std::string::npos);
+    }
+    parameters.domain.periodic = {true, true, true};
+    try {
+      check(parameters, flow_at_rest());
+    } catch (const ParameterError& error) {
+      FAIL() << error.what();
+    }
+  }
+}
+
 TEST(CheckParameters, GathersAllMistakes) {
   SimulationParameters parameters = one_vesicle();
   parameters.time.step = -1.0;

@@ -103,7 +103,7 @@ TEST(SharpPlan, SaysThatItsRegionIsNotMapped) {
   const PlanText plan(sharp({}));
   plan.has("not mapped yet");
   plan.has("no mirrors, and walls at least 1.5 h off");
-  PlanText(sharp({"coupling.kernel=bspline43"})).has("walls at least 1 h off");
+  PlanText(sharp({"coupling.kernel=bao6"})).has("walls at least 2.5 h off");
   plan.has("error of the grid               of second order");
   for (const char* cells : {"domain.cells=16", "domain.cells=48"}) {  // across a vesicle, between markers
     PlanText(delta({cells})).has("WARNING");
