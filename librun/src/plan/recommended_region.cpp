@@ -70,7 +70,8 @@ std::string describe_sharp_region(const Scene& scene) {
         "ratios >= {:g} or coupling.method = \"delta\"",
         least, largest_reynolds_number_of_thin_sharp, thin_sharp_ratio);
   return fmt::format(
-      "not mapped yet for coupling.method = \"sharp\", but for Reynolds numbers: the limits of this plan are those of "
+      "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "
+      "limits are those of "
       "\"delta\"; no mirrors, and walls at least {:g} h off{}",
       coupling::wall_clearance(scene.coupling.kernel), warning);
 }

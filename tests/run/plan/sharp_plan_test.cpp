@@ -93,15 +93,15 @@ TEST(SharpPlan, OfDeltaFunctionsSaysSo) {
     plan.skips("jumps", "coupling.method = \"delta\"");
     plan.skips("interface velocity", "coupling.method = \"delta\"");
     plan.has_not("recommended region");
-    plan.has_not("not mapped");
+    plan.has_not("are mapped");
   }
   PlanText(delta({"fluid.viscosity_ratio=5"})).has_not("with constant coefficients");
 }
 
 // Limits that were found with delta functions are no warnings here.
-TEST(SharpPlan, SaysThatItsRegionIsNotMapped) {
+TEST(SharpPlan, SaysWhatOfItsRegionIsMapped) {
   const PlanText plan(sharp({}));
-  plan.has("not mapped yet");
+  plan.has("are mapped: other limits are those of \"delta\"");
   plan.has("no mirrors, and walls at least 1.5 h off");
   PlanText(sharp({"coupling.kernel=bao6"})).has("walls at least 2.5 h off");
   plan.has("error of the grid               of second order");
