@@ -69,6 +69,15 @@ std::string describe_sharp_region(const Scene& scene) {
         "{:g}, "
         "ratios >= {:g} or coupling.method = \"delta\"",
         least, largest_reynolds_number_of_thin_sharp, thin_sharp_ratio);
+  const double h = scene.spacing();
+  const double shortest = scene.fluid.reynolds_number * h * h / validity::largest_cell_inertia_of_sharp;
+  if (warning.empty() && scene.fluid.inertia != fluid::Inertia::none && !scene.time.adaptive &&
+      scene.time.step < shortest)
+    warning = fmt::format(
+        "  <- WARNING: with such short steps inertia makes a layer next to the membrane that the grid does not "
+        "resolve, "
+        "and runs blow up: take time.step >= {:.2g}, more domain.cells or coupling.method = \"delta\"",
+        shortest);
   return fmt::format(
       "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "
       "limits are those of "

@@ -98,6 +98,15 @@ TEST(SharpPlan, OfDeltaFunctionsSaysSo) {
   PlanText(delta({"fluid.viscosity_ratio=5"})).has_not("with constant coefficients");
 }
 
+// h = 6/24 in the small scene: Re h^2/dt = 60 and 30.
+TEST(SharpPlan, WarnsOfStepsThatAreTooShortForTheirInertia) {
+  constexpr auto inertia = "fluid.inertia=full", ten = "fluid.reynolds_number=10";
+  PlanText(sharp({inertia, ten, "time.step=1/96"})).has("take time.step >= 0.016");
+  PlanText(sharp({inertia, ten, "time.step=1/48"})).has_not("with such short steps");
+  PlanText(sharp({"fluid.inertia=none", ten, "time.step=1/96"})).has_not("with such short steps");
+  PlanText(delta({inertia, ten, "time.step=1/96"})).has_not("with such short steps");
+}
+
 // Limits that were found with delta functions are no warnings here.
 TEST(SharpPlan, SaysWhatOfItsRegionIsMapped) {
   const PlanText plan(sharp({}));
