@@ -20,7 +20,7 @@ function(vesiflow_compile_options target)
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,12.3>>:-Wno-init-self>
     # Sources that are compiled as one look to GCC like one header, whose types of one file must not be members of others; and what is
     # local in one hides nothing but names of the others.
-    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage$<SEMICOLON>-Wshadow=local>
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-subobject-linkage$<SEMICOLON>-Wno-shadow$<SEMICOLON>-Wshadow=local>
     $<$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wno-shadow>
     $<$<BOOL:${VESIFLOW_WERROR}>:-Werror>
     $<$<BOOL:${VESIFLOW_COVERAGE}>:--coverage>)

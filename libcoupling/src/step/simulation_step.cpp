@@ -112,8 +112,11 @@ void Simulation::spread_forces(double dt) {
 // Sharp membranes whose boxes are so near to each other that markers of the one may read inside the other.
 void Simulation::find_neighbours() {
   neighbours_.resize(vesicles_.size());
-  for (auto& of_one : neighbours_) of_one.clear();
-  if (vesicles_.size() < 2 || !vesicles_[0]->sharp) return;
+  for (auto& of_one : neighbours_) {
+    of_one.reserve(vesicles_.size());
+    of_one.clear();
+  }
+  if (!vesicles_[0]->sharp) return;
   const fluid::Grid& grid = fluid_.grid();
   const auto are_near = [&](const ImmersedVesicle& a, const ImmersedVesicle& b) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -126,6 +129,17 @@ void Simulation::find_neighbours() {
     }
     return true;
   };
+  // Its own image, one period on.
+  const auto is_near_itself = [&](const ImmersedVesicle& v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto x = v.membrane.positions().col(axis);
+      if (grid.periodic[axis] && x.maxCoeff() - x.minCoeff() + v.sharp->reading_reach() >= grid.length(axis))
+        return true;
+    }
+    return false;
+  };
+  for (std::size_t i = 0; i < vesicles_.size(); ++i)
+    if (is_near_itself(*vesicles_[i])) neighbours_[i].push_back(i);
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (are_near(*vesicles_[i], *vesicles_[j])) {

@@ -71,15 +71,16 @@ void GridBand::read_past(const GridBand& other) {
     images[axis] = period == 0 ? 1 : std::max(0, floor_of(above, period) - first_image[axis] / period + 1);
     if (images[axis] == 0) return;
   }
-  const std::array<int, 3> step{period_[0], period_[1], period_[2]};
   for (int c = 0; c < images[2]; ++c)
     for (int b = 0; b < images[1]; ++b)
-      for (int a = 0; a < images[0]; ++a)
+      for (int a = 0; a < images[0]; ++a) {
+        const std::array<int, 3> shift{first_image[0] + a * period_[0], first_image[1] + b * period_[1],
+                                       first_image[2] + c * period_[2]};
+        // A surface is no neighbour of itself, but its images are.
+        if (&other == this && shift == std::array<int, 3>{}) continue;
         for (const Point& point : other.points_) {
           if (!(point.distance() < 0.0)) continue;
-          const int i = point.index[0] + first_image[0] + a * step[0],
-                    j = point.index[1] + first_image[1] + b * step[1],
-                    k = point.index[2] + first_image[2] + c * step[2];
+          const int i = point.index[0] + shift[0], j = point.index[1] + shift[1], k = point.index[2] + shift[2];
           if (!box_.contains(i, j, k)) continue;
           if (!reads_past_others_) {
             resize_with_room(to_read_, box_.size());
@@ -88,6 +89,7 @@ void GridBand::read_past(const GridBand& other) {
           }
           to_read_[static_cast<std::size_t>(box_.offset(i, j, k))] += other.jump(point.at);
         }
+      }
 }
 
 void GridBand::frame(const FineSurface& surface, double width, const vesicle::VectorField* readers) {

@@ -75,7 +75,7 @@ class GridBand {
   /// half of it outside.
   double to_mean(std::ptrdiff_t at) const { return to_mean_[static_cast<std::size_t>(at)]; }
   /// Another surface has a jump too, which is evaluated: readers of this one find at points inside of the other what is
-  /// outside of it, continued. Until the next evaluate().
+  /// outside of it, continued. Of itself: at points inside of its images along periodic axes. Until the next evaluate().
   void read_past(const GridBand& other);
   /// What readers add to the values at points, as a pointer into the box: to_mean(), and what others add.
   const double* to_read(int i, int j, int k) const {

@@ -97,6 +97,9 @@ double InterfaceVelocity::improve(const vesicle::Surface& surface, const vesicle
   }
 
   const double residual = std::sqrt(product(change_, change_, weight));
+  // What others do changes the map of one, where several membranes are near each other.
+  if (passes_ > 0 && residual > 2.0 * last_residual_) begin_iteration();
+  last_residual_ = residual;
   accelerate(weight);
   const double speed = std::sqrt(product(velocity_, velocity_, weight));
   return speed > 0.0 ? residual / speed : 0.0;
@@ -112,6 +115,7 @@ void InterfaceVelocity::accelerate(const vesicle::ScalarField& weight) {
     Secant& newest = secants_[static_cast<std::size_t>(known - 1)];
     newest.velocity = velocity_ - last_velocity_;
     newest.change = change_ - last_change_;
+    const double before = product(newest.change, newest.change, weight);
     for (int k = 0; k < known - 1; ++k) {
       const Secant& older = secants_[static_cast<std::size_t>(k)];
       const double square = product(older.change, older.change, weight);
@@ -120,6 +124,9 @@ void InterfaceVelocity::accelerate(const vesicle::ScalarField& weight) {
       newest.velocity -= share * older.velocity;
       newest.change -= share * older.change;
     }
+    // Of which nothing is left but rounding, or what the tolerance of the fluid's solver left.
+    constexpr double least_left = 1e-8;
+    if (product(newest.change, newest.change, weight) < least_left * before) newest.change.setZero();
   }
   last_velocity_ = velocity_;
   last_change_ = change_;

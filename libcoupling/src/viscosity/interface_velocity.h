@@ -56,6 +56,7 @@ class InterfaceVelocity {
   vesicle::VectorField velocity_, jump_, change_, previous_;
   bool has_previous_ = false;
   int passes_ = 0;  // since the iteration began
+  double last_residual_ = 0.0;
   vesicle::VectorField last_velocity_, last_change_;
   struct Secant {
     vesicle::VectorField velocity, change;  // differences from one pass to the next; changes are orthogonal

@@ -6,6 +6,7 @@
 #include <omp.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "support/allocation_counter.h"
@@ -301,6 +302,31 @@ TEST(SharpTransfer, ReadsPastANeighbour) {
     first.sharp.set_force(some_force(first.surface.positions()));  // forgets the neighbour
     EXPECT_GT((first.read(velocity) - alone).abs().maxCoeff(), 0.05) << offset;
   }
+}
+
+// In a box hardly longer than the body, its own image is the neighbour: as the second of two in a box twice as long.
+TEST(SharpTransfer, ReadsPastItsOwnImage) {
+  const fluid::Grid one({-0.9, -2, -2}, {0.9, 2, 2}, {9, 20, 20}, {.periodic = {true, false, false}});
+  const fluid::Grid two({-0.9, -2, -2}, {2.7, 2, 2}, {18, 20, 20}, {.periodic = {true, false, false}});
+  const double period = one.length(0);
+  SharpBody alone = body_in(one), first = body_in(two), second = body_in(two, middle + Vector(period, 0, 0));
+  for (SharpBody* body : {&alone, &first, &second}) {
+    body->sharp.update(body->surface, true);
+    const VectorField jump = some_velocity_jump(alone.surface);
+    body->sharp.set_force(some_force(alone.surface.positions()), &jump);
+  }
+  const auto repeated = [](const fluid::Vector3& x, int component) {
+    return std::sin(2 * std::numbers::pi / 1.8 * x[0] + component) + x[1] * x[2];
+  };
+  fluid::FaceVector of_one(one), of_two(two);
+  for (fluid::FaceVector* field : {&of_one, &of_two})
+    test::for_each_point(
+        *field, [&](double& value, const fluid::Vector3& x, int component) { value = repeated(x, component); });
+  const VectorField uncorrected = alone.read(of_one);
+  alone.sharp.read_past(alone.sharp);
+  first.sharp.read_past(second.sharp);
+  EXPECT_GT((alone.read(of_one) - uncorrected).abs().maxCoeff(), 0.01);
+  EXPECT_LT((alone.read(of_one) - first.read(of_two)).abs().maxCoeff(), 1e-10);
 }
 
 // Every point inside a body that a marker outside it may read knows its jump.
