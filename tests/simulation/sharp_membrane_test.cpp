@@ -247,5 +247,23 @@ TEST(SharpMembrane, AVesicleBesideOneOfAnotherViscosityFeelsTheSameFlow) {
   EXPECT_LT((equal_inside - thick_inside).norm(), 5e-3);
 }
 
+// A third of a spacing apart across the end of the box as in the middle of it: twelve cells further on all is the same.
+TEST(SharpMembrane, NeighboursAreFoundAcrossTheEndOfThePeriod) {
+  const auto velocity = [](double first, double second) {
+    Scene scene = sharp({five, "domain.periodic=[true, true, false]"});
+    scene.vesicles[0].shape = Shape::sphere;
+    scene.vesicles[0].reduced_volume.reset();
+    scene.vesicles.push_back(scene.vesicles[0]);
+    scene.vesicles[0].centre = {first, 0.1, 0.2};
+    scene.vesicles[1].centre = {second, 0.1, -0.1};
+    SceneSimulation simulation(scene);
+    advance(simulation, 2);
+    return vesicle::VectorField(simulation.marker_velocity(0));
+  };
+  const double half = 1.03;
+  const vesicle::VectorField inside = velocity(-half, half), across = velocity(3.0 - half, -3.0 + half);
+  EXPECT_LT((inside - across).abs().maxCoeff(), 1e-6);
+}
+
 }  // namespace
 }  // namespace vesiflow::coupling::sharp_membrane_test

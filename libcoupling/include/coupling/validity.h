@@ -49,8 +49,8 @@ constexpr double thin_sharp_ratio = 0.5,          ///< sharp membranes around a 
     largest_reynolds_number_of_thin_sharp = 1.0,  ///< are quiet to this; 0.2 blows up at 10 (docs/coupling.md)
     thinnest_sharp_ratio = 0.2;                   ///< and down to this ratio; 0.05 blows up at 1
 
-/// Re h^2/dt with sharp membranes, h^2 over that of the layer that a step's inertia makes next to a membrane: quiet at 34,
-/// blown up at 68 (S).
+/// Re h^2/dt with sharp membranes, h^2 over that of the layer that a step's inertia makes next to a membrane: on 64^3 cells
+/// quiet at 34, blown up at 68 (S).
 constexpr double largest_cell_inertia_of_sharp = 40.0;
 
 /// The thickness correction is that of Stokes flow: stable to this Reynolds number, and blows up at 1 (S).

@@ -74,9 +74,8 @@ std::string describe_sharp_region(const Scene& scene) {
   if (warning.empty() && scene.fluid.inertia != fluid::Inertia::none && !scene.time.adaptive &&
       scene.time.step < shortest)
     warning = fmt::format(
-        "  <- WARNING: with such short steps inertia makes a layer next to the membrane that the grid does not "
-        "resolve, "
-        "and runs blow up: take time.step >= {:.2g}, more domain.cells or coupling.method = \"delta\"",
+        "  <- WARNING: with such short steps, for this inertia and grid, runs blow up: take time.step >= {:.2g}, more "
+        "domain.cells or coupling.method = \"delta\"",
         shortest);
   return fmt::format(
       "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "

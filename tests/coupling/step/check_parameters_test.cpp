@@ -88,6 +88,19 @@ TEST(CheckParameters, SharpMembranesNeedAKernelThatKeepsThemOffWalls) {
   }
 }
 
+// Sharp membranes solve with one viscosity, whatever would be done with a field of it.
+TEST(CheckParameters, SharpMembranesMayTakeFastTransformsAtAnyRatio) {
+  SimulationParameters parameters = one_vesicle();
+  parameters.fluid.viscosity_ratio = 5.0;
+  parameters.fluid.inertia = fluid::Inertia::full;
+  parameters.fluid.viscous_treatment = fluid::ViscousTreatment::implicit;
+  parameters.fluid.velocity_solver = fluid::SolverKind::fft;
+  EXPECT_EQ(mistakes_of(parameters).size(), 1u);
+  parameters.coupling.method = CouplingMethod::sharp;
+  parameters.time.markers = MarkerMotion::shape_following;
+  EXPECT_EQ(mistakes_of(parameters), std::vector<std::string>{});
+}
+
 TEST(CheckParameters, GathersAllMistakes) {
   SimulationParameters parameters = one_vesicle();
   parameters.time.step = -1.0;
