@@ -19,6 +19,8 @@ inline Scene small_scene(const Overrides& overrides = {}) {
 lower = [-3, -3, -3]
 upper = [3, 3, 3]
 cells = 24
+[coupling]
+method = "delta"
 [membrane]
 g = "25/6"
 [mesh]
@@ -48,6 +50,8 @@ lower = [-3, -3, -3]
 upper = [6, 3, 3]
 cells = [36, 24, 24]
 periodic = [true, true, false]
+[coupling]
+method = "delta"
 [membrane]
 g = 3
 [mesh]

@@ -53,6 +53,12 @@ constexpr double thin_sharp_ratio = 0.5,          ///< sharp membranes around a 
 /// quiet at 34, blown up at 68 (S).
 constexpr double largest_cell_inertia_of_sharp = 40.0;
 
+/// Nearest that a sharp membrane comes to a wall, in spacings: nearer, markers would read points beyond it.
+constexpr double sharp_wall_clearance = 1.5;
+/// Fewest spacings of the grid per radius of a sharp membrane: with 4 the angle at ratio 5 is within 8 %
+/// (docs/jump_conditions.md); with less hardly any degree of its forces is left.
+constexpr double fewest_cells_per_radius_of_sharp = 4.0;
+
 /// The thickness correction is that of Stokes flow: stable to this Reynolds number, and blows up at 1 (S).
 constexpr double largest_reynolds_number_with_thickness_correction = 0.1;
 

@@ -182,7 +182,7 @@ void check_sharp(const SimulationParameters& parameters) {
     if (parameters.domain.mirror[axis])
       refuse(fmt::format("takes no mirrors; set domain.mirror[{}] to false and compute the whole box", axis));
   // Nearer to a wall markers would read points beyond it, and faces on it would take a force.
-  constexpr double clearance = 1.5;
+  constexpr double clearance = validity::sharp_wall_clearance;
   const bool has_walls = std::ranges::any_of(parameters.domain.periodic, [](bool periodic) { return !periodic; });
   if (has_walls && wall_clearance(parameters.coupling.kernel) < clearance)
     refuse(

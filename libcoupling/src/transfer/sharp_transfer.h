@@ -31,7 +31,7 @@ namespace vesiflow::coupling {
 class SharpTransfer {
  public:
   struct Parameters {
-    int degrees = 0;         ///< degrees of forces that the grid resolves; 0: all
+    int degrees = 0;  ///< degrees of forces that the grid resolves; 0: all
     /// In spacings. Where theta varies, what D lacks of obeying the equations is force: the less the narrower, while points
     /// that change sides do so more suddenly. docs/jump_conditions.md#how-wide-the-step-is.
     double smoothing = 0.5;

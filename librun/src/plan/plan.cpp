@@ -24,6 +24,7 @@
 #include "plan/sharp_plan.h"
 #include "plan/viscosity_plan.h"
 #include "scene/accuracy.h"
+#include "scene/coupling_choice.h"
 #include "vesicle/mesh_control.h"
 #include "vesicle/shapes.h"
 #include "vesicle/surface.h"
@@ -165,6 +166,7 @@ void describe_resolution(Plan& plan, const Scene& scene, int threads) {
   plan.line("membranes", "{} of {} x {} markers{}, spacing {}", scene.vesicles.size(), coarsest, 2 * coarsest,
             finest > coarsest ? fmt::format(" to {} x {}", finest, 2 * finest) : "", describe_marker_spacing(scene));
   describe_cells_across(plan, scene);
+  plan.line("membranes and grid", "{}", describe_coupling_method(scene));
   if (is_sharp(scene)) {
     plan.line("recommended region", "{}", describe_sharp_region(scene));
     plan.line("error of the grid",

@@ -12,6 +12,7 @@
 
 #include "run/errors.h"
 #include "scene/accuracy.h"
+#include "scene/coupling_choice.h"
 #include "scene/key_suggestion.h"
 #include "scene/scene_keys.h"
 #include "scene/scene_mistakes.h"
@@ -96,6 +97,7 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
     visit_keys(scene, reader);  // keys that are given win
   }
   adapt_tangential_degrees(document, scene);
+  if (document.find("coupling.method") == nullptr) choose_coupling_method(scene);
 
   if (scene.g && document.find("membrane.sigma0") == nullptr)
     scene.membrane.sigma0 = *scene.g * 4.0 * scene.finest_spacing() / scene.time.step;

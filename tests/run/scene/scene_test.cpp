@@ -294,9 +294,9 @@ TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
                {"vesicles.0", "prolate and oblate"});
   expect_parts(message_of(sphere + sphere), {"vesicles.0 and vesicles.1 overlap"});
   expect_parts(message_of("title = \"empty\"\n"), {"vesicles"});
-  expect_parts(
-      message_of(sphere, {"fluid.viscosity_ratio=5", "fluid.viscous_treatment=implicit", "fluid.velocity_solver=fft"}),
-      {"fluid.velocity_solver = \"fft\"", "fluid.viscous_treatment", "auto, pcg or cholmod"});
+  expect_parts(message_of(sphere, {"coupling.method=delta", "fluid.viscosity_ratio=5",
+                                   "fluid.viscous_treatment=implicit", "fluid.velocity_solver=fft"}),
+               {"fluid.velocity_solver = \"fft\"", "fluid.viscous_treatment", "auto, pcg or cholmod"});
 }
 
 // Found by fuzz/scene.cpp, or while writing it: what overflowed, took for ever or ended as an "internal error".

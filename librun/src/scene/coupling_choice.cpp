@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Vesiflow authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/coupling_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "coupling/delta_kernel.h"
+#include "coupling/validity.h"
+
+namespace vesiflow::run {
+namespace {
+
+namespace validity = coupling::validity;
+using coupling::CouplingMethod;
+
+double cells_per_radius(const Scene& scene) {
+  double least = 1e300;
+  for (const coupling::VesicleParameters& vesicle : scene.vesicles)
+    least = std::min(least, vesicle.radius / scene.spacing());
+  return least;
+}
+
+// Where the inertia of two phases blows up, and where steps are too short for the grid's inertia: docs/coupling.md#sharp-membranes.
+std::string limit_of_inertia(const Scene& scene) {
+  if (scene.fluid.inertia == fluid::Inertia::none) return "";
+  const double ratio = scene.viscosity_range().least, re = vesicle_reynolds_number(scene);
+  if (scene.has_viscosity_contrast() &&
+      (ratio < validity::thinnest_sharp_ratio ||
+       (ratio < validity::thin_sharp_ratio && re > validity::largest_reynolds_number_of_thin_sharp)))
+    return fmt::format("with inertia, sharp membranes around a fluid of ratio {:g} blow up", ratio);
+  const double h = scene.spacing();
+  const double shortest = scene.time.adaptive ? scene.time.smallest_step : scene.time.step;
+  if (scene.fluid.reynolds_number * h * h > validity::largest_cell_inertia_of_sharp * shortest)
+    return "steps are too short for the inertia of a cell of a sharp membrane";
+  return "";
+}
+
+}  // namespace
+
+std::string why_delta(const Scene& scene) {
+  if (scene.method.preset == Preset::paper) return "it is the paper's, as method.preset = \"paper\"";
+  if (!scene.follows_shape())
+    return fmt::format("time.markers = \"{}\" knows no sharp membranes", coupling::name(scene.time.markers));
+  if (scene.coupling.thickness_correction)
+    return "coupling.thickness_correction = true, the cheapest way to a small error in slow flow at equal viscosities";
+  const bool has_walls = std::ranges::any_of(scene.domain.periodic, [](bool periodic) { return !periodic; });
+  if (has_walls && coupling::wall_clearance(scene.coupling.kernel) < validity::sharp_wall_clearance)
+    return fmt::format("coupling.kernel = \"{}\" lets membranes come nearer to walls than sharp ones may",
+                       coupling::name(scene.coupling.kernel));
+  if (cells_per_radius(scene) < validity::fewest_cells_per_radius_of_sharp)
+    return fmt::format("fewer than {:g} cells per radius are too few for sharp membranes",
+                       validity::fewest_cells_per_radius_of_sharp);
+  return limit_of_inertia(scene);
+}
+
+void choose_coupling_method(Scene& scene) {
+  scene.coupling.method = why_delta(scene).empty() ? CouplingMethod::sharp : CouplingMethod::delta;
+}
+
+std::string describe_coupling_method(const Scene& scene) {
+  const std::string why = why_delta(scene);
+  if (scene.coupling.method == CouplingMethod::sharp)
+    return why.empty() ? "sharp: its error is of second order in the spacing"
+                       : "sharp, as asked for, though \"delta\" would be chosen: " + why;
+  return why.empty() ? "delta, as asked for: \"sharp\" would have an error of second order in the spacing"
+                     : "delta: " + why;
+}
+
+}  // namespace vesiflow::run
