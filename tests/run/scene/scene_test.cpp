@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "coupling/marker_integrator.h"
+#include "coupling/validity.h"
 #include "run/errors.h"
 #include "run/plan.h"
 
@@ -85,6 +86,26 @@ TEST(Scene, AccuracyChoosesGridMeshAndStep) {
   EXPECT_EQ(parse(sphere, {"method.accuracy=1e-2", "membrane.capillary_number=0.5"}).time.step, 1.0 / 192.0);
 }
 
+TEST(Scene, AccuracyTakesSharpMembranesWhereTheCorrectionOfTheThicknessDoesNotReach) {
+  const std::string accurate = "method.accuracy=1e-2";
+  for (const char* key :
+       {"fluid.viscosity_ratio=5", "fluid.reynolds_number=1", "coupling.method=sharp"}) {
+    const Scene scene = parse(sphere, {accurate, key});
+    EXPECT_EQ(scene.coupling.method, coupling::CouplingMethod::sharp) << key;
+    EXPECT_FALSE(scene.coupling.thickness_correction) << key;
+    EXPECT_EQ(scene.domain.cells, (std::array<int, 3>{96, 96, 96})) << key;
+    EXPECT_EQ(describe_plan(scene, 1).find("not met"), std::string::npos) << key;
+  }
+  // The convection of a fast flow asks for shorter steps than the flow's rate.
+  const Scene fast = parse(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=10"});
+  EXPECT_LT(fast.time.step, 1.0 / 96.0);
+  EXPECT_LE(fast.time.step, coupling::stable_convection_step(fast, flow_of(fast)));
+  expect_parts(describe_plan(parse(sphere, {accurate, "fluid.viscosity_ratio=5", "coupling.method=delta",
+                                            "coupling.thickness_correction=false"}),
+                             1),
+               {"not met for certain", "coupling.method = \"delta\""});
+}
+
 TEST(Scene, GivenKeysWinOverTheAccuracyAndAreSaidToSpoilIt) {
   const Scene coarse =
       parse(sphere, {"method.accuracy=1e-2", "domain.cells=48", "time.step=1/24", "mesh.latitudes=32"});
@@ -97,12 +118,10 @@ TEST(Scene, GivenKeysWinOverTheAccuracyAndAreSaidToSpoilIt) {
 
 TEST(Scene, AccuracyIsRefusedWhereNoSettingsAreKnown) {
   expect_parts(message_of(sphere, {"method.accuracy=1e-4"}), {"1e-4", "no settings are known"});
-  expect_parts(message_of(sphere, {"method.accuracy=1e-2", "fluid.viscosity_ratio=5"}), {"1e-2", "viscosity ratio"});
-  expect_parts(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=1"}),
-               {"1e-3", "reynolds_number = 1"});
+  expect_parts(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=20"}),
+               {"1e-3", "reynolds_number = 20", "<= 10"});
+  expect_parts(message_of(sphere, {"method.accuracy=1e-2", "fluid.viscosity_ratio=0.1"}), {"1e-2", "ratio 0.1"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "method.preset=paper"}), {"1e-2", "paper"});
-  expect_parts(message_of(sphere, {"method.accuracy=1e-2", "coupling.method=sharp"}),
-               {"1e-2", "no settings are known", "sharp"});
   expect_parts(message_of(sphere, {"method.accuracy=0.5"}), {"0.5", "1e-2"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "domain.lower=[1, 1e9, 1]"}), {"domain"});
 }
