@@ -59,6 +59,11 @@ constexpr double sharp_wall_clearance = 1.5;
 /// (docs/jump_conditions.md); with less hardly any degree of its forces is left.
 constexpr double fewest_cells_per_radius_of_sharp = 4.0;
 
+/// Sharp membranes of smaller reduced volumes leave noise in the tension at tips and rims, on grids with fewer spacings per
+/// radius than below: 0.7 from across a shear flow and at rest, surface divergence 1.7 to 1.8 with 5.3, 0.5 to 0.8 with 8.
+constexpr double least_reduced_volume_of_coarse_sharp = 0.75,
+                 fewest_cells_per_radius_of_slender_sharp = 8.0;  ///< from which on they may be slender
+
 /// The thickness correction is that of Stokes flow: stable to this Reynolds number, and blows up at 1 (S).
 constexpr double largest_reynolds_number_with_thickness_correction = 0.1;
 

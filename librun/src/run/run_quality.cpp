@@ -45,7 +45,10 @@ std::string advice(RunQuality::Quantity quantity, const Scene& scene) {
     case RunQuality::local_area:
       return "the membrane is not inextensible: take a larger membrane.sigma0, or more mesh.latitudes";
     case RunQuality::surface_divergence:
-      return "the tension is too soft or carries noise: take a smaller time.step";
+      return scene.coupling.method == coupling::CouplingMethod::sharp
+                 ? "the tension carries noise, or degrees that the grid does not resolve: take a smaller time.step or "
+                   "more domain.cells"
+                 : "the tension is too soft or carries noise: take a smaller time.step";
     case RunQuality::velocity_noise:
       return "results are averages over noise: take a smaller time.step";
     case RunQuality::spectrum_tail:

@@ -165,11 +165,11 @@ std::string accuracy_doubts(const Scene& scene) {
 std::string describe_accuracy(const Scene& scene) {
   const Settings s = settings_of(scene);
   const std::string doubts = accuracy_doubts(scene);
-  return fmt::format("{} of position, angle, frequency, deformation: {}, h = R/{:g}, {:g} R/h latitudes, 1/({:g} rates){}",
-                     scene.method.accuracy == Accuracy::per_cent ? "1 %" : "0.1 %",
-                     wants_sharp(scene) ? "sharp membranes" : "the thickness corrected", s.cells_per_radius,
-                     s.latitudes_per_cells, s.steps_per_rate,
-                     doubts.empty() ? "" : fmt::format("  <- WARNING: not met for certain: {}", doubts));
+  return fmt::format(
+      "{} of position, angle, frequency, deformation: {}, h = R/{:g}, {:g} R/h latitudes, 1/({:g} rates){}",
+      scene.method.accuracy == Accuracy::per_cent ? "1 %" : "0.1 %",
+      wants_sharp(scene) ? "sharp membranes" : "the thickness corrected", s.cells_per_radius, s.latitudes_per_cells,
+      s.steps_per_rate, doubts.empty() ? "" : fmt::format("  <- WARNING: not met for certain: {}", doubts));
 }
 
 }  // namespace vesiflow::run

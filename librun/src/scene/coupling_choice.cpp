@@ -5,9 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 
 #include "coupling/delta_kernel.h"
+#include "coupling/initial_shape.h"
 #include "coupling/validity.h"
+#include "vesicle/shapes.h"
+#include "vesicle/surface.h"
 
 namespace vesiflow::run {
 namespace {
@@ -19,6 +23,17 @@ double cells_per_radius(const Scene& scene) {
   double least = 1e300;
   for (const coupling::VesicleParameters& vesicle : scene.vesicles)
     least = std::min(least, vesicle.radius / scene.spacing());
+  return least;
+}
+
+double least_reduced_volume(const Scene& scene) {
+  constexpr int latitudes = 24;  // to 2e-3
+  double least = 1.0;
+  for (const coupling::VesicleParameters& vesicle : scene.vesicles) {
+    vesicle::Surface surface(latitudes);
+    surface.update(coupling::initial_markers(vesicle, latitudes));
+    least = std::min(least, vesicle::reduced_volume(surface.area(), surface.volume()));
+  }
   return least;
 }
 
@@ -49,14 +64,25 @@ std::string why_delta(const Scene& scene) {
   if (has_walls && coupling::wall_clearance(scene.coupling.kernel) < validity::sharp_wall_clearance)
     return fmt::format("coupling.kernel = \"{}\" lets membranes come nearer to walls than sharp ones may",
                        coupling::name(scene.coupling.kernel));
-  if (cells_per_radius(scene) < validity::fewest_cells_per_radius_of_sharp)
+  if (cells_per_radius(scene) < validity::fewest_cells_per_radius_of_sharp * (1.0 - 1e-9))
     return fmt::format("fewer than {:g} cells per radius are too few for sharp membranes",
                        validity::fewest_cells_per_radius_of_sharp);
+  constexpr double round_off = 1e-9;
+  if (cells_per_radius(scene) < validity::fewest_cells_per_radius_of_slender_sharp * (1.0 - round_off) &&
+      least_reduced_volume(scene) < validity::least_reduced_volume_of_coarse_sharp)
+    return fmt::format(
+        "with fewer than {:g} cells per radius, tips and rims of sharp membranes of reduced volumes below {:g} are "
+        "not resolved",
+        validity::fewest_cells_per_radius_of_slender_sharp, validity::least_reduced_volume_of_coarse_sharp);
   return limit_of_inertia(scene);
 }
 
 void choose_coupling_method(Scene& scene) {
-  scene.coupling.method = why_delta(scene).empty() ? CouplingMethod::sharp : CouplingMethod::delta;
+  try {
+    scene.coupling.method = why_delta(scene).empty() ? CouplingMethod::sharp : CouplingMethod::delta;
+  } catch (const std::exception&) {
+    scene.coupling.method = CouplingMethod::delta;  // of a shape that the check of the scene refuses
+  }
 }
 
 std::string describe_coupling_method(const Scene& scene) {

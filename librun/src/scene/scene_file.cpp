@@ -97,13 +97,13 @@ Scene parse_scene(const std::string& text, const std::string& name, const Overri
     visit_keys(scene, reader);  // keys that are given win
   }
   adapt_tangential_degrees(document, scene);
-  if (document.find("coupling.method") == nullptr) choose_coupling_method(scene);
 
   if (scene.g && document.find("membrane.sigma0") == nullptr)
     scene.membrane.sigma0 = *scene.g * 4.0 * scene.finest_spacing() / scene.time.step;
   for (SurfaceFile& surface : scene.surface_files)
     if (surface.file) surface.file = absolute_file(*surface.file, name);
   load_surfaces(scene);
+  if (document.find("coupling.method") == nullptr) choose_coupling_method(scene);
   check_scene(scene, name);
   scene.g.reset();  // said; sigma0 is what counts from here on
   return scene;

@@ -88,8 +88,7 @@ TEST(Scene, AccuracyChoosesGridMeshAndStep) {
 
 TEST(Scene, AccuracyTakesSharpMembranesWhereTheCorrectionOfTheThicknessDoesNotReach) {
   const std::string accurate = "method.accuracy=1e-2";
-  for (const char* key :
-       {"fluid.viscosity_ratio=5", "fluid.reynolds_number=1", "coupling.method=sharp"}) {
+  for (const char* key : {"fluid.viscosity_ratio=5", "fluid.reynolds_number=1", "coupling.method=sharp"}) {
     const Scene scene = parse(sphere, {accurate, key});
     EXPECT_EQ(scene.coupling.method, coupling::CouplingMethod::sharp) << key;
     EXPECT_FALSE(scene.coupling.thickness_correction) << key;
