@@ -57,9 +57,11 @@ TEST(CouplingChoice, SaysWhyItIsDelta) {
   expect_delta({"coupling.thickness_correction=true"}, "the cheapest way");
   expect_delta({"coupling.kernel=bspline43"}, "nearer to walls");
   expect_delta({"domain.cells=12"}, "fewer than 4 cells per radius");
-  expect_delta({"domain.cells=28", "vesicles.0.reduced_volume=0.7", "vesicles.0.rotation_deg=90"}, "tips and rims");
-  EXPECT_EQ(scene({"domain.cells=32", "vesicles.0.reduced_volume=0.7", "vesicles.0.rotation_deg=90"}).coupling.method,
-            CouplingMethod::sharp);
+  const auto slender_on = [](const char* cells) {
+    return Overrides{"domain.lower=[-3, -3, -3]", "domain.upper=[3, 3, 3]", "vesicles.0.reduced_volume=0.7", cells};
+  };
+  expect_delta(slender_on("domain.cells=42"), "tips and rims");
+  EXPECT_EQ(scene(slender_on("domain.cells=48")).coupling.method, CouplingMethod::sharp);
   expect_delta({"fluid.viscosity_ratio=0.1", "fluid.reynolds_number=0.1"}, "ratio 0.1 blow up");
   expect_delta({"fluid.viscosity_ratio=0.3", "fluid.reynolds_number=2"}, "ratio 0.3 blow up");
 }
