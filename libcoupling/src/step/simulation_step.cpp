@@ -35,9 +35,9 @@ constexpr long redistribution_interval = 16;
 constexpr double interface_tolerance = 1e-3;
 constexpr int most_interface_passes = 60;
 
-/// Spacings between a membrane of two viscosities with inertia and a mirror plane that it is on one side of: the phases of it and of its
-/// image are differenced apart from each other as long as no point of the membrane's blending zone, one spacing wide, has a ghost among its
-/// neighbours, half a spacing beyond the plane. The rest is what it moves in two steps.
+/// Spacings between a membrane of two viscosities with inertia and a mirror plane that it is on one side of. Ghosts, half a spacing beyond
+/// the plane, have the phase that is the mirror image of the one continued there: no point where both phases count, within a spacing of the
+/// membrane, may have one for a neighbour. The rest is what it moves in two steps.
 constexpr double phases_from_mirror = 2.0;
 
 }  // namespace
