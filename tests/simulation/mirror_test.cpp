@@ -10,17 +10,16 @@
 #include "coupling/errors.h"
 #include "coupling/repulsion.h"
 #include "coupling/simulation.h"
+#include "mirrored_scenes.h"
 #include "run/plan.h"
 #include "support/small_scene.h"
 
 namespace vesiflow::coupling::mirror_test {
 namespace {
 
-constexpr long steps = 20;
+using mirrored::advance, mirrored::expect_same, mirrored::side_of;
 
-void advance(SceneSimulation& simulation, long count) {
-  for (long i = 0; i < count; ++i) simulation.step();
-}
+constexpr long steps = 20;
 
 // A prolate along x, off the middle plane of a duct in no direction: symmetric about y = 0 and z = 0.
 Scene duct_scene(const Overrides& more) {
@@ -39,35 +38,6 @@ Scene shear_scene(const Overrides& more) {
                          "mesh.tangential_degrees=12"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return small_scene(overrides);
-}
-
-// One side of the planes of the axes, which are in the middle of the box.
-Scene side_of(Scene scene, const std::array<bool, 3>& mirror) {
-  scene.domain.mirror = mirror;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (mirror[axis]) {
-      scene.domain.lower[axis] = 0.0;
-      scene.domain.cells[axis] /= 2;
-    }
-  return scene;
-}
-
-// Greatest differences of markers, and of the velocity at the points of the part; both are of size 1.
-void expect_same(SceneSimulation& whole, SceneSimulation& part, double tolerance) {
-  for (std::size_t i = 0; i < part.vesicle_count(); ++i)
-    EXPECT_LT((whole.membrane(i).positions() - part.membrane(i).positions()).abs().maxCoeff(), tolerance);
-  std::array<int, 3> shift{};
-  for (int axis = 0; axis < 3; ++axis) shift[axis] = whole.fluid().grid().cells[axis] - part.fluid().grid().cells[axis];
-  double worst = 0.0;
-  for (int component = 0; component < 3; ++component) {
-    const fluid::ConstView all = whole.fluid().velocity().points()[component];
-    const fluid::ConstView some = part.fluid().velocity().points()[component];
-    for (int k = 0; k < some.extent[2]; ++k)
-      for (int j = 0; j < some.extent[1]; ++j)
-        for (int i = 0; i < some.extent[0]; ++i)
-          worst = std::max(worst, std::abs(some(i, j, k) - all(i + shift[0], j + shift[1], k + shift[2])));
-  }
-  EXPECT_LT(worst, tolerance);
 }
 
 // With tension, bending and, in half of the cases, another viscosity inside.

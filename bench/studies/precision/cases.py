@@ -46,10 +46,7 @@ class Case:
     def run(self, label, keys):
         keys = self.keys | keys
         cells = keys.pop("cells")
-        shape = self.shape
-        if keys.get("coupling.method") == "sharp":  # which knows no planes of symmetry
-            shape, keys = (1, 1, 1), keys | whole_box(keys["domain.upper"])
-        return Run(label, self.scene, keys | {"domain.cells": [round(cells * part) for part in shape]})
+        return Run(label, self.scene, keys | {"domain.cells": [round(cells * part) for part in self.shape]})
 
     def spacing(self, keys):
         return self.width / keys["cells"]
@@ -72,10 +69,6 @@ class Case:
             for keys in pair:
                 found[self.label(keys)] = self.run(self.label(keys), keys)
         return found
-
-
-def whole_box(upper):
-    return {"domain.lower": [-end for end in upper], "domain.mirror": [False, False, False]}
 
 
 SHORT = {"coupling.method": "{}", "mesh.latitudes": "{} lat", "time.step": "dt {}", "time.markers": "{}",

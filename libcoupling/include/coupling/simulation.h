@@ -226,6 +226,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void move_markers(double dt);
   void redistribute_markers();
   void check_limits(std::size_t vesicle) const;
+  void check_mirrors(std::size_t vesicle) const;
   void check_growth();
   void plan_last_step();
 

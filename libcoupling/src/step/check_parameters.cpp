@@ -178,9 +178,6 @@ void check_sharp(const SimulationParameters& parameters) {
                     name(parameters.time.markers)));
   if (parameters.coupling.thickness_correction)
     refuse("a membrane without thickness needs no coupling.thickness_correction; set it to false");
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (parameters.domain.mirror[axis])
-      refuse(fmt::format("takes no mirrors; set domain.mirror[{}] to false and compute the whole box", axis));
   // Nearer to a wall markers would read points beyond it, and faces on it would take a force.
   constexpr double clearance = validity::sharp_wall_clearance;
   const bool has_walls = std::ranges::any_of(parameters.domain.periodic, [](bool periodic) { return !periodic; });

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "coupling/marker_transfer.h"
 #include "coupling/simulation.h"
 #include "step/immersed_vesicle.h"
 #include "transfer/fine_surface.h"
@@ -50,7 +51,8 @@ class Interface {
 
   void divide(PhysicalVelocity& velocity, const fluid::Grid& grid) const {
     for (int component = 0; component < 3; ++component) {
-      GridBand band(grid, fluid::face_centrings[static_cast<std::size_t>(component)]);
+      GridBand band(grid, fluid::face_centrings[static_cast<std::size_t>(component)],
+                    mirrors_crossed(grid, surface_.positions()));
       band.update(fine_, 1.5 * std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)}));
       velocity.divide_inside(component, band, ratio_);
     }

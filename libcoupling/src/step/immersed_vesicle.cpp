@@ -65,6 +65,7 @@ ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const F
                                  const fluid::Grid& grid, const vesicle::MembraneState* start)
     : membrane(make_membrane(parameters, number, start)),
       transfer(grid, parameters.coupling.kernel, mirrors_crossed(grid, membrane.positions())),
+      symmetry(parameters, membrane.positions()),
       motion(make_membrane_motion(parameters, flow, number, membrane)) {
   if (parameters.coupling.method == CouplingMethod::sharp) {
     const double radius = std::sqrt(membrane.initial_area() / (4.0 * std::numbers::pi));
@@ -72,7 +73,8 @@ ImmersedVesicle::ImmersedVesicle(const SimulationParameters& parameters, const F
     sharp.emplace(
         grid, membrane.surface().grid(),
         SharpTransfer::Parameters{.degrees = degrees,
-                                  .more_reach = parameters.has_phase_inertia() ? PhaseInertia::more_reach : 0.0});
+                                  .more_reach = parameters.has_phase_inertia() ? PhaseInertia::more_reach : 0.0,
+                                  .across = mirrors_crossed(grid, membrane.positions())});
     const double ratio = parameters.viscosity_ratio(number);
     if (ratio != 1.0) two_phase.emplace(ratio, membrane.positions().rows());
   }
@@ -141,7 +143,10 @@ void ImmersedVesicle::read_sharp(const fluid::FaceVector& velocity, vesicle::Vec
 double ImmersedVesicle::improve_interface(const fluid::FaceVector& velocity) {
   mean_velocity_.resize(membrane.positions().rows(), 3);
   read_sharp(velocity, mean_velocity_);
-  return two_phase->improve(membrane.surface(), mean_velocity_);
+  const double change = two_phase->improve(membrane.surface(), mean_velocity_);
+  // The fluid answers to the symmetric part alone: of the other one, changes of rigid motions would grow from pass to pass.
+  two_phase->project([this](vesicle::VectorField& of_interface) { symmetry.apply(of_interface); });
+  return change;
 }
 
 void ImmersedVesicle::clear(fluid::NavierStokes& fluid) {

@@ -12,6 +12,7 @@
 #include "coupling/simulation_parameters.h"
 #include "fluid/field.h"
 #include "motion/membrane_motion.h"
+#include "motion/mirror_symmetry.h"
 #include "motion/thickness_correction.h"
 #include "step/velocity_noise.h"
 #include "transfer/sharp_transfer.h"
@@ -72,6 +73,7 @@ struct ImmersedVesicle {
   vesicle::Membrane membrane;
   MarkerTransfer transfer;
   std::optional<SharpTransfer> sharp;          ///< where it has no thickness
+  MirrorSymmetry symmetry;                     ///< about planes that it lies across
   std::optional<InterfaceVelocity> two_phase;  ///< its velocity where the viscosity is another one inside, if sharp
   MarkerVelocities velocities;
   std::optional<vesicle::VectorField> total_force;  ///< of the membrane and from outside, if there are any from outside

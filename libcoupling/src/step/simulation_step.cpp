@@ -35,6 +35,11 @@ constexpr long redistribution_interval = 16;
 constexpr double interface_tolerance = 1e-3;
 constexpr int most_interface_passes = 60;
 
+/// Spacings between a membrane of two viscosities with inertia and a mirror plane that it is on one side of. Ghosts, half a spacing beyond
+/// the plane, have the phase that is the mirror image of the one continued there: no point where both phases count, within a spacing of the
+/// membrane, may have one for a neighbour. The rest is what it moves in two steps.
+constexpr double phases_from_mirror = 2.0;
+
 }  // namespace
 
 void Simulation::step() {
@@ -118,6 +123,7 @@ void Simulation::find_neighbours() {
   }
   if (!vesicles_[0]->sharp) return;
   const fluid::Grid& grid = fluid_.grid();
+  // Of one of them that is on one side of a mirror plane, the image counts as well.
   const auto are_near = [&](const ImmersedVesicle& a, const ImmersedVesicle& b) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto x = a.membrane.positions().col(axis), y = b.membrane.positions().col(axis);
@@ -125,16 +131,19 @@ void Simulation::find_neighbours() {
       // Some image of the second box is from `low` to `high` of the first, give or take what is read.
       const double reach = a.sharp->reading_reach();
       const double shift = grid.periodic[axis] ? std::ceil((low - reach) / grid.length(axis)) * grid.length(axis) : 0.0;
-      if (low - shift > reach || high - shift < -reach) return false;
+      const bool is_near_image = (a.sharp->has_image(axis) || b.sharp->has_image(axis)) &&
+                                 x.minCoeff() + y.minCoeff() - 2.0 * grid.lower[axis] <= reach;
+      if (!is_near_image && (low - shift > reach || high - shift < -reach)) return false;
     }
     return true;
   };
-  // Its own image, one period on.
+  // Its own image, one period on or beyond a mirror plane.
   const auto is_near_itself = [&](const ImmersedVesicle& v) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto x = v.membrane.positions().col(axis);
-      if (grid.periodic[axis] && x.maxCoeff() - x.minCoeff() + v.sharp->reading_reach() >= grid.length(axis))
-        return true;
+      const double reach = v.sharp->reading_reach();
+      if (grid.periodic[axis] && x.maxCoeff() - x.minCoeff() + reach >= grid.length(axis)) return true;
+      if (v.sharp->has_image(axis) && 2.0 * (x.minCoeff() - grid.lower[axis]) <= reach) return true;
     }
     return false;
   };
@@ -257,11 +266,28 @@ void Simulation::iterate_interfaces(double dt) {
 void Simulation::prepare_inertia(double dt) {
   if (!phase_inertia_) return;
   const PhaseTimer timer(phases_.spread);
+  for (std::size_t i = 0; i < vesicles_.size(); ++i) check_mirrors(i);
   if (fluid_.steps() == 0) phase_inertia_->begin(fluid_.velocity());
   const double a = phase_inertia_->prepare(fluid_, dt);
   for (auto& v : vesicles_)
     if (v->two_phase)
       v->two_phase->set_inertia(a * std::pow(0.75 / std::numbers::pi * v->membrane.initial_volume(), 2.0 / 3.0));
+}
+
+void Simulation::check_mirrors(std::size_t i) const {
+  const ImmersedVesicle& v = *vesicles_[i];
+  const fluid::Grid& grid = fluid_.grid();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(v.two_phase && v.sharp->has_image(axis))) continue;
+    const double from_plane = (v.membrane.positions().col(axis).minCoeff() - grid.lower[axis]) / grid.spacing(axis);
+    if (!(from_plane >= phases_from_mirror))
+      throw SimulationStopped(
+          fmt::format("vesicle {} is {:.3g} grid spacings from the plane of symmetry {} = {:g}; with another viscosity "
+                      "inside, inertia "
+                      "and coupling.method = \"sharp\" it must keep {:g} from it and its mirror image",
+                      i, from_plane, "xyz"[axis], grid.lower[axis], phases_from_mirror),
+          "take the whole box (domain.mirror), a finer grid (domain.cells) or fluid.inertia = \"none\"");
+  }
 }
 
 void Simulation::keep_phases() {

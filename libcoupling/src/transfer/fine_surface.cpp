@@ -14,10 +14,12 @@ namespace vesiflow::coupling {
 
 namespace {
 
-/// A sixteenth more, and then the next of 16 sizes an octave, so that a body that breathes is on few meshes.
+/// A sixteenth more, and then the next of 16 sizes an octave, so that a body that breathes is on few meshes. Even, so that
+/// there are columns at right angles to the first one: of two nodes at the same distance from a point on a plane of symmetry
+/// one would be taken.
 int rounded_up(int latitudes) {
   const int more = latitudes + latitudes / 16;
-  const int step = std::max(1, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 16);
+  const int step = std::max(2, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 16);
   return (more + step - 1) / step * step;
 }
 
@@ -31,7 +33,6 @@ void FineSurface::choose_mesh(int latitudes, int degrees) {
   if (on_mesh_ == found->get()) return;
   on_mesh_ = found->get();
   const auto size = static_cast<std::size_t>(mesh().table_size());
-  resize_with_room(stride_of_row_, static_cast<std::size_t>(latitudes));
   resize_with_room(surface_, size);
   resize_with_room(jumps_, size * static_cast<std::size_t>(own_records_));
   std::ranges::fill(surface_, SurfacePoint{Four::Zero(), Four::Zero(), decltype(SurfacePoint::slopes)::Zero()});
@@ -53,7 +54,7 @@ void FineSurface::update(const vesicle::Surface& surface, double spacing) {
   lower_ = values_.colwise().minCoeff().transpose();
   upper_ = values_.colwise().maxCoeff().transpose();
   tabulate_surface();
-  find_strides();
+  find_sparse_nodes();
 }
 
 void FineSurface::tabulate_surface() {
@@ -88,11 +89,19 @@ void FineSurface::tabulate_surface() {
   mesh().fill_margins(surface_.data());
 }
 
-void FineSurface::find_strides() {
+void FineSurface::find_sparse_nodes() {
+  reserve_with_room(sparse_nodes_, static_cast<std::size_t>(nodes()));
+  sparse_nodes_.clear();
+  const int half = longitudes() / 2;
   for (int j = 0; j < latitudes(); ++j) {
     const auto tangents = on_mesh_->geometry.tangent_phi().middleRows(mesh().grid().index(0, j), longitudes());
     const double apart = std::sqrt(tangents.square().rowwise().sum().maxCoeff()) * mesh().grid().longitude_spacing();
-    stride_of_row_[static_cast<std::size_t>(j)] = std::max(1, static_cast<int>(spacing_ / apart));
+    const int stride = std::max(1, static_cast<int>(spacing_ / apart));
+    for (int i = 0; i < longitudes(); ++i) {
+      // Both ways from column 0 and from the one on the other side, to the middle between them.
+      const int from = std::min(i % half, half - i % half);
+      if (from % stride == 0 || from == half / 2) sparse_nodes_.push_back({j, i});
+    }
   }
 }
 

@@ -62,9 +62,11 @@ class FineSurface {
     return surface_[static_cast<std::size_t>(mesh().in_table(node.row, node.column))];
   }
 
-  /// No two neighbours on the mesh are further apart, also if of each row only one in stride_of_row() nodes is taken.
+  /// No two neighbours on the mesh are further apart, nor two of sparse_nodes(), which lack some of the rows next to the
+  /// poles. Of a surface that is symmetric about a plane through its poles and column 0, across that or across its axis,
+  /// these are symmetric.
   double spacing() const { return spacing_; }
-  int stride_of_row(int row) const { return stride_of_row_[static_cast<std::size_t>(row)]; }
+  const std::vector<Node>& sparse_nodes() const { return sparse_nodes_; }
   /// The box that all nodes are in.
   const Eigen::Vector3d& lower() const { return lower_; }
   const Eigen::Vector3d& upper() const { return upper_; }
@@ -83,7 +85,7 @@ class FineSurface {
 
   void choose_mesh(int latitudes, int degrees);
   void tabulate_surface();
-  void find_strides();
+  void find_sparse_nodes();
 
   const Four* table_of(int record) const { return jumps_.data() + mesh().table_size() * (record - jumps); }
   // The weighted sum of what `value` is of the nodes of a place.
@@ -95,7 +97,7 @@ class FineSurface {
   Eigen::Vector3d lower_, upper_;
   std::vector<std::unique_ptr<OnMesh>> meshes_;  // that have been in use
   OnMesh* on_mesh_ = nullptr;
-  std::vector<int> stride_of_row_;
+  std::vector<Node> sparse_nodes_;
   Table<SurfacePoint> surface_;
   Table<Four> jumps_;  // record by record
   vesicle::Coefficients padded_;

@@ -24,8 +24,13 @@ double distance_of_node(double distance, double spacing) {
 
 }  // namespace
 
-GridBand::GridBand(const fluid::Grid& grid, fluid::Centring centring) : box_(grid, centring) {
-  for (int axis = 0; axis < 3; ++axis) period_[axis] = grid.periodic[axis] ? grid.cells[axis] : 0;
+GridBand::GridBand(const fluid::Grid& grid, fluid::Centring centring, const std::array<bool, 3>& across)
+    : is_mirrored_(grid.mirror), box_(grid, centring) {
+  for (int axis = 0; axis < 3; ++axis) {
+    period_[axis] = grid.periodic[axis] ? grid.cells[axis] : 0;
+    is_across_[axis] = grid.mirror[axis] && across[axis];
+    is_odd_[axis] = grid.mirror[axis] && fluid::is_face_normal(centring, axis);
+  }
 }
 
 std::size_t GridBand::count() const {
@@ -50,7 +55,9 @@ void GridBand::evaluate(const FineSurface& surface, int record) {
       const double d = point.distance();
       if (d == far) continue;
       const FineSurface::Four g = surface.value(point.foot.place, record);
-      const double jump = g[0] + d * (g[1] + 0.5 * d * (g[2] + d / 3.0 * g[3]));
+      double jump = g[0] + d * (g[1] + 0.5 * d * (g[2] + d / 3.0 * g[3]));
+      // Of two feet of a point far inside, one on each side of the plane, one has been found.
+      if (is_on_odd_plane(point.index)) jump = 0.0;
       const auto at = static_cast<std::size_t>(point.at);
       jump_[at] = jump;
       to_mean_[at] = std::copysign(0.5, -d) * jump;
@@ -58,36 +65,49 @@ void GridBand::evaluate(const FineSurface& surface, int record) {
   });
 }
 
+// Those of the other box that may reach into this one.
+GridBand::Images GridBand::images(int axis, const GridBand& other) const {
+  if (is_mirrored_[axis]) return {{0, false}, other.is_across_[axis] ? 1 : 2, !other.is_across_[axis]};
+  const int period = period_[axis];
+  if (period == 0) return {{0, false}, 1, false};
+  const int above = box_.last(axis) - other.box_.first[axis], below = box_.first[axis] - other.box_.last(axis);
+  const auto floor_of = [](int a, int b) { return a / b - (a % b < 0 ? 1 : 0); };
+  const int first = -floor_of(-below, period);
+  return {{period * first, false}, std::max(0, floor_of(above, period) - first + 1), false};
+}
+
+GridBand::Image GridBand::image(int axis, const Images& all, int number) const {
+  if (all.have_mirrored && number == 1) return {is_odd_[axis] ? 0 : -1, true};
+  return {all.first.shift + number * period_[axis], false};
+}
+
 void GridBand::read_past(const GridBand& other) {
-  // The places of an index of the other box in this one: every period has one.
-  std::array<int, 3> first_image, images;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int period = period_[axis];
-    const int above = box_.last(axis) - other.box_.first[axis], below = box_.first[axis] - other.box_.last(axis);
-    if (above < 0 && period == 0) return;
-    if (below > 0 && period == 0) return;
-    const auto floor_of = [](int a, int b) { return a / b - (a % b < 0 ? 1 : 0); };
-    first_image[axis] = period == 0 ? 0 : period * -floor_of(-below, period);
-    images[axis] = period == 0 ? 1 : std::max(0, floor_of(above, period) - first_image[axis] / period + 1);
-    if (images[axis] == 0) return;
-  }
-  for (int c = 0; c < images[2]; ++c)
-    for (int b = 0; b < images[1]; ++b)
-      for (int a = 0; a < images[0]; ++a) {
-        const std::array<int, 3> shift{first_image[0] + a * period_[0], first_image[1] + b * period_[1],
-                                       first_image[2] + c * period_[2]};
+  const std::array<Images, 3> all{images(0, other), images(1, other), images(2, other)};
+  const auto reaches_here = [&](int axis, const Image& image) {
+    const auto [low, high] = std::minmax({image.of(other.box_.first[axis]), image.of(other.box_.last(axis))});
+    return low <= box_.last(axis) && high >= box_.first[axis];
+  };
+  for (int c = 0; c < all[2].count; ++c)
+    for (int b = 0; b < all[1].count; ++b)
+      for (int a = 0; a < all[0].count; ++a) {
+        const std::array<Image, 3> along{image(0, all[0], a), image(1, all[1], b), image(2, all[2], c)};
         // A surface is no neighbour of itself, but its images are.
-        if (&other == this && shift == std::array<int, 3>{}) continue;
+        if (&other == this && std::ranges::all_of(along, [](const Image& i) { return !i.is_mirrored && i.shift == 0; }))
+          continue;
+        if (!(reaches_here(0, along[0]) && reaches_here(1, along[1]) && reaches_here(2, along[2]))) continue;
+        double sign = 1.0;
+        for (int axis = 0; axis < 3; ++axis)
+          if (along[axis].is_mirrored && is_odd_[axis]) sign = -sign;
         for (const Point& point : other.points_) {
           if (!(point.distance() < 0.0)) continue;
-          const int i = point.index[0] + shift[0], j = point.index[1] + shift[1], k = point.index[2] + shift[2];
+          const int i = along[0].of(point.index[0]), j = along[1].of(point.index[1]), k = along[2].of(point.index[2]);
           if (!box_.contains(i, j, k)) continue;
           if (!reads_past_others_) {
             resize_with_room(to_read_, box_.size());
             std::ranges::copy(to_mean_, to_read_.begin());
             reads_past_others_ = true;
           }
-          to_read_[static_cast<std::size_t>(box_.offset(i, j, k))] += other.jump(point.at);
+          to_read_[static_cast<std::size_t>(box_.offset(i, j, k))] += sign * other.jump(point.at);
         }
       }
 }
@@ -101,6 +121,7 @@ void GridBand::frame(const FineSurface& surface, double width, const vesicle::Ve
       upper = std::max(upper, readers->col(axis).maxCoeff() + half);
     }
     box_.first[axis] = static_cast<int>(std::floor(box_.index_at(axis, lower))) - 1;
+    if (is_across_[axis]) box_.first[axis] = std::max(box_.first[axis], -layers_beyond);
     const int last = static_cast<int>(std::ceil(box_.index_at(axis, upper))) + 1;
     box_.extent[axis] = std::max(last - box_.first[axis] + 1, NearestNodes::smallest_row);
     std::vector<int>& in_grid = in_grid_[static_cast<std::size_t>(axis)];
@@ -108,7 +129,9 @@ void GridBand::frame(const FineSurface& surface, double width, const vesicle::Ve
     const int period = period_[axis];
     for (int i = 0; i < box_.extent[axis]; ++i) {
       const int index = box_.first[axis] + i;
-      in_grid[static_cast<std::size_t>(i)] = period == 0 ? index : ((index % period) + period) % period;
+      in_grid[static_cast<std::size_t>(i)] = period != 0                       ? ((index % period) + period) % period
+                                             : is_mirrored_[axis] && index < 0 ? (is_odd_[axis] ? 0 : -1) - index
+                                                                               : index;
     }
   }
   resize_with_room(distance_, box_.size());

@@ -24,6 +24,11 @@ namespace vesiflow::coupling {
 /// Held as a list of these points, plane by plane, and as a dense box around the surface, for stencils. Indices run on
 /// across periodic axes: i and i + cells are the same point of the grid, seen from a surface that lies across the end of
 /// the box.
+///
+/// Below 0 they run on beyond mirror planes, too (Grid::mirror), where each point is the mirror image of one of the grid:
+/// of -1 - i or, of faces normal to the axis, of -i. A surface on one side of a plane has points beyond it as far as it
+/// reaches. Of one across it, which is symmetric about it, the box has those layers that differences at points of the
+/// grid and readers on its side need.
 class GridBand {
  public:
   struct Point {
@@ -34,11 +39,12 @@ class GridBand {
     double distance() const { return foot.distance; }
   };
 
-  GridBand(const fluid::Grid& grid, fluid::Centring centring);
+  /// \param across per axis with a mirror plane: whether the surface lies across it. Without meaning for the other axes.
+  GridBand(const fluid::Grid& grid, fluid::Centring centring, const std::array<bool, 3>& across = {true, true, true});
 
   /// Finds the points within `width` of the surface and their feet. They do not depend on what was found before.
-  /// \param readers positions on the surface, shape (readers, 3): what they read is in the band however far it is. None
-  /// if null
+  /// \param readers positions on the surface, shape (readers, 3), on the grid's side of mirror planes that it lies
+  /// across: what they read is in the band however far it is. None if null
   void update(const FineSurface& surface, double width, const vesicle::VectorField* readers = nullptr);
 
   /// Evaluates the jump at these points from `record` of the same surface: four numbers g, g_n, g_nn, g_nnn give
@@ -60,9 +66,19 @@ class GridBand {
   Eigen::Vector3d position(const std::array<int, 3>& index) const {
     return {box_.coordinate(0, index[0]), box_.coordinate(1, index[1]), box_.coordinate(2, index[2])};
   }
-  /// Where a point with that index is in the arrays of the grid.
+  /// Where a point with that index, or the one that it is the mirror image of, is in the arrays of the grid.
   int in_grid(int axis, int index) const {
     return in_grid_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index - box_.first[axis])];
+  }
+  /// What a field of this centring is there over what it is at in_grid(): of the component normal to a mirror plane -1
+  /// beyond the plane, and 0 on it.
+  double sign(int axis, int index) const { return !is_odd_[axis] || index > 0 ? 1.0 : index == 0 ? 0.0 : -1.0; }
+  /// Whether a point is neither beyond nor on a mirror plane that the surface lies across: what is put at the others is
+  /// the mirror image of what is put at these.
+  bool is_on_side(const std::array<int, 3>& index) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (is_across_[axis] && index[axis] < (is_odd_[axis] ? 1 : 0)) return false;
+    return true;
   }
 
   /// Signed distance, or `far` beyond the band.
@@ -74,8 +90,9 @@ class GridBand {
   /// What takes the value at a point, which is that of its side, to the mean of both sides: half the jump inside, less
   /// half of it outside.
   double to_mean(std::ptrdiff_t at) const { return to_mean_[static_cast<std::size_t>(at)]; }
-  /// Another surface has a jump too, which is evaluated: readers of this one find at points inside of the other what is
-  /// outside of it, continued. Of itself: at points inside of its images along periodic axes. Until the next evaluate().
+  /// Another surface has a jump too, which is evaluated: readers of this one find at points inside of the other, and of
+  /// its images by periods and in mirror planes, what is outside of it, continued. Of itself: at points inside of its
+  /// images. Until the next evaluate().
   void read_past(const GridBand& other);
   /// What readers add to the values at points, as a pointer into the box: to_mean(), and what others add.
   const double* to_read(int i, int j, int k) const {
@@ -95,12 +112,37 @@ class GridBand {
   }
 
  private:
+  /// Layers of points beyond a mirror plane, of a surface across it: readers take two, differences one.
+  static constexpr int layers_beyond = read_points / 2;
+
+  /// Along one axis, of the indices of a surface those of an image.
+  struct Image {
+    int shift;
+    bool is_mirrored;
+    int of(int index) const { return is_mirrored ? shift - index : shift + index; }
+  };
+  struct Images {
+    Image first;
+    int count;
+    bool have_mirrored;  // the last of them; else each is a period further than the one before
+  };
+  // The field is the component normal to the mirror plane, which the surface lies across: it vanishes there.
+  bool is_on_odd_plane(const std::array<int, 3>& index) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (is_odd_[axis] && is_across_[axis] && index[axis] == 0) return true;
+    return false;
+  }
+  Images images(int axis, const GridBand& other) const;
+  Image image(int axis, const Images& all, int number) const;
+
   void frame(const FineSurface& surface, double width, const vesicle::VectorField* readers);
   void list_candidates(double reach, const vesicle::VectorField* readers);
   void mark_read(const vesicle::VectorField& readers, int first_plane, int end_plane);
   void project(const FineSurface& surface, double width);
 
-  std::array<int, 3> period_;  // in points, or 0
+  std::array<int, 3> period_;               // in points, or 0
+  std::array<bool, 3> is_mirrored_;         // the axis
+  std::array<bool, 3> is_across_, is_odd_;  // mirror planes: the surface, and the field
   GridBox box_;
   std::array<std::vector<int>, 3> in_grid_;
   NearestNodes nearest_;

@@ -44,42 +44,41 @@ void NearestNodes::search_planes(const FineSurface& surface, const GridBox& whol
     return static_cast<Key>(static_cast<std::int32_t>(std::min(units * distance * distance, most))) << bits;
   };
   const Key most = most_units_ << node_bits_;
-  for (int row = 0; row < surface.latitudes(); ++row)
-    for (int column = 0; column < surface.longitudes(); column += surface.stride_of_row(row)) {
-      const auto& x = surface.at(FineSurface::Node{row, column}).position;
-      const auto number = static_cast<Key>(row * surface.longitudes() + column);
-      const auto range = [&](int axis, int least, int greatest) {
-        return PointRange{std::max(least, static_cast<int>(std::ceil(box.index_at(axis, x[axis] - reach_)))),
-                          std::min(greatest, static_cast<int>(std::floor(box.index_at(axis, x[axis] + reach_))))};
-      };
-      const PointRange planes = range(2, first, last);
-      if (planes.from > planes.to) continue;
-      const PointRange rows = range(1, box.first[1], box.last(1)), points = range(0, box.first[0], box.last(0));
-      for (int point = points.from; point <= points.to; point += lanes)
-        for (int first_row = rows.from; first_row <= rows.to; first_row += most_rows) {
-          const int i = std::min(point, box.last(0) - lanes + 1);
-          std::array<Key, lanes> along_x;
+  for (const FineSurface::Node node : surface.sparse_nodes()) {
+    const auto& x = surface.at(node).position;
+    const auto number = static_cast<Key>(node.row * surface.longitudes() + node.column);
+    const auto range = [&](int axis, int least, int greatest) {
+      return PointRange{std::max(least, static_cast<int>(std::ceil(box.index_at(axis, x[axis] - reach_)))),
+                        std::min(greatest, static_cast<int>(std::floor(box.index_at(axis, x[axis] + reach_))))};
+    };
+    const PointRange planes = range(2, first, last);
+    if (planes.from > planes.to) continue;
+    const PointRange rows = range(1, box.first[1], box.last(1)), points = range(0, box.first[0], box.last(0));
+    for (int point = points.from; point <= points.to; point += lanes)
+      for (int first_row = rows.from; first_row <= rows.to; first_row += most_rows) {
+        const int i = std::min(point, box.last(0) - lanes + 1);
+        std::array<Key, lanes> along_x;
 #pragma omp simd
-          for (int a = 0; a < lanes; ++a) along_x[a] = part(box.coordinate(0, i + a) - x[0]) | number;
-          std::array<Key, most_rows> along_y;
+        for (int a = 0; a < lanes; ++a) along_x[a] = part(box.coordinate(0, i + a) - x[0]) | number;
+        std::array<Key, most_rows> along_y;
 #pragma omp simd
-          for (int b = 0; b < most_rows; ++b) along_y[b] = part(box.coordinate(1, first_row + b) - x[1]);
-          const int count = std::min(most_rows, rows.to - first_row + 1);
-          for (int k = planes.from; k <= planes.to; ++k) {
-            const Key along_z = part(box.coordinate(2, k) - x[2]);
-            Key* keys = keys_.data() + box.offset(i, first_row, k);
-            for (int b = 0; b < count; ++b, keys += box.extent[0]) {
-              const Key rest = along_y[b] + along_z;
-              if (rest > most) continue;
+        for (int b = 0; b < most_rows; ++b) along_y[b] = part(box.coordinate(1, first_row + b) - x[1]);
+        const int count = std::min(most_rows, rows.to - first_row + 1);
+        for (int k = planes.from; k <= planes.to; ++k) {
+          const Key along_z = part(box.coordinate(2, k) - x[2]);
+          Key* keys = keys_.data() + box.offset(i, first_row, k);
+          for (int b = 0; b < count; ++b, keys += box.extent[0]) {
+            const Key rest = along_y[b] + along_z;
+            if (rest > most) continue;
 #pragma omp simd
-              for (int a = 0; a < lanes; ++a) {
-                const Key key = along_x[a] + rest;
-                keys[a] = key < keys[a] ? key : keys[a];
-              }
+            for (int a = 0; a < lanes; ++a) {
+              const Key key = along_x[a] + rest;
+              keys[a] = key < keys[a] ? key : keys[a];
             }
           }
         }
-    }
+      }
+  }
 }
 
 NearestNodes::Key NearestNodes::limit(double distance) const {

@@ -17,8 +17,8 @@ class NearestNodes {
   /// Fewest points in a row of a box.
   static constexpr int smallest_row = 8;
 
-  /// Looks for the nodes of all points within `reach` of one; of points beyond it may find one or not. Rows of nodes
-  /// that are closer than they need be are thinned. Nothing allocates but for a larger box.
+  /// Looks for the nodes of all points within `reach` of one; of points beyond it may find one or not. Only
+  /// the surface's sparse_nodes() are looked at. Nothing allocates but for a larger box.
   void search(const FineSurface& surface, const GridBox& box, double reach);
 
   /// Of each point of the box: squared distance of its nearest node and that node, to compare with limits.

@@ -57,15 +57,21 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
       more_reach_(parameters.more_reach * spacing_),
       jumps_(markers, {.degrees = parameters.degrees, .jump_degrees = markers.latitudes(), .cut = {}}),
       fine_(4) {
-  for (int axis = 0; axis < 3; ++axis) per_spacing_[axis] = 1.0 / grid.spacing(axis);
-  for (const fluid::Centring centring : fluid::face_centrings) bands_.emplace_back(grid, centring);
-  bands_.emplace_back(grid, fluid::Centring::cell);
+  for (int axis = 0; axis < 3; ++axis) {
+    per_spacing_[axis] = 1.0 / grid.spacing(axis);
+    across_[axis] = grid.mirror[axis] && parameters.across[axis];
+  }
+  for (const fluid::Centring centring : fluid::face_centrings) bands_.emplace_back(grid, centring, across_);
+  bands_.emplace_back(grid, fluid::Centring::cell, across_);
 }
 
 void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours) {
   jumps_.update(surface);
   fine_.update(surface, node_distance * grid_.min_spacing());
   positions_ = surface.positions();
+  readers_ = positions_;
+  for (int axis = 0; axis < 3; ++axis)
+    if (across_[axis]) readers_.col(axis) = grid_.lower[axis] + (positions_.col(axis) - grid_.lower[axis]).abs();
   area_weight_ = surface.area_weight();
   // f is at faces within reach, whose differences take in the next faces and the cells on both sides; r is at cells
   // within reach at most, and takes in the faces on both sides.
@@ -73,7 +79,7 @@ void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours)
   // A neighbour's marker outside reads no deeper inside than the diagonal of what it reads along the axes.
   const double velocity_reach =
       std::max(reach + more_reach_ + (1.0 + slack) * spacing_, has_neighbours ? std::sqrt(3.0) * reading_reach() : 0.0);
-  for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, velocity_reach, &positions_);
+  for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, velocity_reach, &readers_);
   bands_[pressure_band].update(fine_, reach + (0.5 + slack) * spacing_);
 }
 
@@ -140,24 +146,41 @@ double SharpTransfer::source_at(const GridBand::Point& point) const {
   return sum;
 }
 
+// add(point, where it is in the grid, what a value there counts).
 template <class Add>
 void SharpTransfer::for_points_within(double reach, const GridBand& band, const Add& add) {
-  for (const GridBand::Point& point : band.points())
-    if (std::abs(point.distance()) <= reach)
-      add(point, std::array<int, 3>{band.in_grid(0, point.index[0]), band.in_grid(1, point.index[1]),
-                                    band.in_grid(2, point.index[2])});
+  for (const GridBand::Point& point : band.points()) {
+    if (!(std::abs(point.distance()) <= reach && band.is_on_side(point.index))) continue;
+    std::array<int, 3> in_grid;
+    double sign = 1.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      in_grid[axis] = band.in_grid(axis, point.index[axis]);
+      sign *= band.sign(axis, point.index[axis]);
+    }
+    add(point, in_grid, sign);
+  }
 }
 
 void SharpTransfer::add_component(int component, const fluid::View& density, Moments& moments) const {
   const GridBand& band = bands_[static_cast<std::size_t>(component)];
   double force = 0.0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
-  for_points_within(force_reach(), band, [&](const GridBand::Point& point, const std::array<int, 3>& in_grid) {
-    const double f = momentum_at(component, point);
-    density(in_grid[0], in_grid[1], in_grid[2]) += f;
-    force += f;
-    at += f * band.position(point.index);
-  });
+  for_points_within(force_reach(), band,
+                    [&](const GridBand::Point& point, const std::array<int, 3>& in_grid, double sign) {
+                      const double f = momentum_at(component, point);
+                      density(in_grid[0], in_grid[1], in_grid[2]) += sign * f;
+                      force += f;
+                      at += f * band.position(point.index);
+                    });
+  // The other side of mirror planes that the membrane lies across.
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!across_[axis]) continue;
+    const double sign = axis == component ? -1.0 : 1.0;
+    Eigen::Vector3d image = sign * at;
+    image[axis] = sign * 2.0 * grid_.lower[axis] * force - image[axis];
+    force += sign * force;
+    at += image;
+  }
   const double volume = grid_.cell_volume();
   moments.force[component] = volume * force;
   moments.torque = volume * at.cross(Eigen::Vector3d::Unit(component));
@@ -165,8 +188,8 @@ void SharpTransfer::add_component(int component, const fluid::View& density, Mom
 
 void SharpTransfer::add_source(const fluid::View& source) const {
   for_points_within(source_reach(), bands_[pressure_band],
-                    [&](const GridBand::Point& point, const std::array<int, 3>& in_grid) {
-                      source(in_grid[0], in_grid[1], in_grid[2]) += source_at(point);
+                    [&](const GridBand::Point& point, const std::array<int, 3>& in_grid, double sign) {
+                      source(in_grid[0], in_grid[1], in_grid[2]) += sign * source_at(point);
                     });
 }
 
@@ -233,7 +256,9 @@ void SharpTransfer::clear_box(const Box& box, const fluid::View& view) const {
   // Two ranges of an axis: the second is what goes on at the other end.
   std::array<std::array<std::array<int, 2>, 2>, 3> ranges;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int first = box.first[axis], end = first + box.extent[axis], cells = grid_.cells[axis];
+    const int first = box.first[axis], cells = grid_.cells[axis];
+    int end = first + box.extent[axis];
+    if (grid_.mirror[axis]) end = std::max(end, 1 - first);  // what is put beyond the plane is put at its mirror image
     if (!grid_.periodic[axis]) {
       ranges[axis] = {{{std::max(first, 0), std::min(end, view.extent[axis])}, {0, 0}}};
     } else {
@@ -255,6 +280,9 @@ void SharpTransfer::interpolate(const fluid::FaceVector& velocity, vesicle::Vect
     for (std::size_t c = 0; c < 3; ++c)
       for (Eigen::Index m = begin; m < end; ++m)
         marker_velocity(m, static_cast<Eigen::Index>(c)) = mean_of_sides(bands_[c], views[c], m);
+    for (int axis = 0; axis < 3; ++axis)
+      for (Eigen::Index m = begin; across_[axis] && m < end; ++m)
+        if (positions_(m, axis) < grid_.lower[axis]) marker_velocity(m, axis) = -marker_velocity(m, axis);
   });
 }
 
@@ -263,11 +291,12 @@ double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView
   constexpr int width = GridBand::read_points;
   static_assert(width == Four::SizeAtCompileTime);
   std::array<int, 3> first;
-  std::array<Four, 3> weight;
+  std::array<Four, 3> weight, sign;
   for (int axis = 0; axis < 3; ++axis) {
-    const GridBand::Reading reading = band.reading(axis, positions_(marker, axis));
+    const GridBand::Reading reading = band.reading(axis, readers_(marker, axis));
     first[axis] = reading.first;
     weight[axis] = lagrange(reading.fraction);
+    for (int a = 0; a < width; ++a) sign[axis][a] = band.sign(axis, first[axis] + a);
   }
   std::array<std::ptrdiff_t, width> columns, rows, planes;
   for (int a = 0; a < width; ++a) {
@@ -275,7 +304,7 @@ double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView
     rows[a] = band.in_grid(1, first[1] + a) * u.row_stride;
     planes[a] = band.in_grid(2, first[2] + a) * u.plane_stride;
   }
-  const bool is_whole = columns[width - 1] - columns[0] == width - 1;
+  const bool is_whole = columns[width - 1] - columns[0] == width - 1 && sign[0][0] == 1.0;
   const double* to_read = band.to_read(first[0], first[1], first[2]);
   Four sum = Four::Zero();
   for (int c = 0; c < width; ++c)
@@ -285,8 +314,9 @@ double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView
       if (is_whole)
         value = Eigen::Map<const Four>(row + columns[0]);
       else
-        for (int a = 0; a < width; ++a) value[a] = row[columns[a]];
-      value += Eigen::Map<const Four>(to_read + c * band.stride(2) + b * band.stride(1));
+        for (int a = 0; a < width; ++a) value[a] = sign[0][a] * row[columns[a]];
+      value =
+          sign[2][c] * sign[1][b] * value + Eigen::Map<const Four>(to_read + c * band.stride(2) + b * band.stride(1));
       sum += weight[2][c] * weight[1][b] * value;
     }
   return (sum * weight[0]).sum();

@@ -28,6 +28,11 @@ namespace vesiflow::coupling {
 ///
 /// The velocity of the membrane is interpolated by 4 x 4 x 4 points of Lagrange from the mean of both sides, u + D/2
 /// inside and u - D/2 outside.
+///
+/// Membranes lie across a mirror plane of the grid or on one side of it, as those of MarkerTransfer do. One across it is
+/// symmetric: f and r are those of the whole at the points of the grid, and markers beyond the plane have the velocity
+/// of their mirror images. One on one side stands for its image too: what it puts beyond the plane is put at the mirror
+/// images of these points.
 class SharpTransfer {
  public:
   struct Parameters {
@@ -37,6 +42,8 @@ class SharpTransfer {
     double smoothing = 0.5;
     /// How much further than forces need it points of the velocity know their jumps, in spacings.
     double more_reach = 0.0;
+    /// Per axis with a mirror plane: whether the membrane lies across it.
+    std::array<bool, 3> across{true, true, true};
   };
 
   SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters);
@@ -46,6 +53,8 @@ class SharpTransfer {
   void update(const vesicle::Surface& surface, bool has_neighbours = false);
   /// How far from a membrane its markers read, along each axis.
   double reading_reach() const { return 0.5 * GridBand::read_points * spacing_; }
+  /// Whether the axis has a mirror plane that the membrane is on one side of: then its mirror image is a membrane too.
+  bool has_image(int axis) const { return grid_.mirror[axis] && !across_[axis]; }
 
   /// Takes its force per area on the fluid (markers x 3). \param velocity_jump [u] (markers x 3), none if null
   void set_force(const vesicle::VectorField& force, const vesicle::VectorField* velocity_jump = nullptr);
@@ -73,6 +82,7 @@ class SharpTransfer {
   double lacking_force() const { return lacking_force_; }
 
  private:
+  /// Of a force, about the origin.
   struct Moments {
     Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero();
   };
@@ -98,11 +108,13 @@ class SharpTransfer {
   double smoothing_;  // width
   double spacing_;    // the largest
   double more_reach_;
+  std::array<bool, 3> across_;  // per axis: a mirror plane
   std::array<double, 3> per_spacing_;
   vesicle::MembraneJumps jumps_;
   FineSurface fine_;
   std::vector<GridBand> bands_;  // of the components, then of the pressure
   vesicle::VectorField positions_, force_, rest_;
+  vesicle::VectorField readers_;  // the markers, those beyond mirror planes at their mirror images
   vesicle::ScalarField area_weight_;
   double lacking_force_ = 0.0;
   std::array<std::vector<Box>, 4> touched_;

@@ -14,15 +14,16 @@ void InsidePoints::find(const GridBand& band, double spacing) {
   const auto& n = band.extent();
   reserve_with_room(runs_, static_cast<std::size_t>(n[1]) * static_cast<std::size_t>(n[2]));  // of a convex body
   runs_.clear();
-  std::ptrdiff_t at = 0;
   for (int k = first[2]; k < first[2] + n[2]; ++k)
     for (int j = first[1]; j < first[1] + n[1]; ++j) {
+      // From above: a body across a mirror plane fills the lower end of the box.
       bool inside = false;
-      for (int i = first[0]; i < first[0] + n[0]; ++i, ++at) {
+      std::ptrdiff_t at = band.offset(first[0] + n[0] - 1, j, k);
+      for (int i = first[0] + n[0] - 1; i >= first[0]; --i, --at) {
         const bool before = inside;
         if (std::abs(band.distance(at)) <= near) inside = band.is_inside(at);
-        if (inside && !before) runs_.push_back({i, i, j, k});
-        if (inside) runs_.back().last = i + 1;
+        if (inside && !before) runs_.push_back({i, i + 1, j, k});
+        if (inside) runs_.back().first = i;
       }
     }
 }

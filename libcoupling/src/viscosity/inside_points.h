@@ -13,7 +13,7 @@ namespace vesiflow::coupling {
 ///
 /// Points next to the membrane know their side by their signed distance. Where a line of points along x crosses the
 /// membrane, the two points on either side of it are no further than a spacing from it: all other points are on the side
-/// of the one before them, and a line begins outside.
+/// of the one next to them, and a line ends outside.
 class InsidePoints {
  public:
   /// Points `first` to `last` - 1 of a line. Indices run on across periodic axes, as those of GridBand do.

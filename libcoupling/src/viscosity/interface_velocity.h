@@ -45,6 +45,12 @@ class InterfaceVelocity {
   /// the map was from giving U back, root mean square over that of U.
   double improve(const vesicle::Surface& surface, const vesicle::VectorField& mean);
 
+  /// Takes out of U what it is known not to have: project(U).
+  template <class Projection>
+  void project(const Projection& project) {
+    project(velocity_);
+  }
+
   /// int x (q . n) dA, x from the centroid of the area: what the integral of w over a box is less than that of u.
   vesicle::Vector3 displaced(const vesicle::Surface& surface);
 

@@ -80,7 +80,7 @@ std::string describe_sharp_region(const Scene& scene) {
   return fmt::format(
       "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "
       "limits are those of "
-      "\"delta\"; no mirrors, and walls at least {:g} h off{}",
+      "\"delta\"; walls at least {:g} h off{}",
       coupling::wall_clearance(scene.coupling.kernel), warning);
 }
 

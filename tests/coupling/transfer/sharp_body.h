@@ -22,7 +22,9 @@ class SharpBody {
  public:
   SharpBody(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const vesicle::VectorField& positions,
             const SharpTransfer::Parameters& parameters = {})
-      : surface(markers), delta(grid), sharp(grid, markers, parameters) {
+      : surface(markers),
+        delta(grid, DeltaKernel::smoothed_four_point, parameters.across),
+        sharp(grid, markers, parameters) {
     move(positions);
   }
 

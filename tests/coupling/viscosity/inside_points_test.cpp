@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include "fluid/field.h"
 #include "transfer/fine_surface.h"
@@ -132,6 +134,41 @@ TEST(InsidePoints, AreMultipliedInEveryPlaceOfAPeriodicField) {
           EXPECT_EQ(values(i, j, k), is_inside ? 1.5 : 3.0) << component << ": " << i << " " << j << " " << k;
         }
     EXPECT_GT(changed, 100);
+  }
+}
+
+// Of a body across mirror planes, and of one a sixth of a spacing off them: all points and those ghosts that are their mirror images. That
+// of the component normal to the plane nobody reads.
+TEST(InsidePoints, AreMultipliedInGhostsBeyondMirrorPlanesToo) {
+  const fluid::Grid grid({0.3, -0.2, -2}, {3.3, 2.8, 2}, {24, 22, 28}, {.periodic = {}, .mirror = {true, true, false}});
+  const double off = grid.spacing(0) / 6.0;
+  for (const bool across : {true, false}) {
+    const Body body{peanut, across ? Vector(0.3, -0.2, -0.071) : Vector(1.9 + off, 0.7 + off, -0.071)};
+    for (int component = 0; component < 3; ++component) {
+      const auto c = static_cast<std::size_t>(component);
+      fluid::FaceVector field(grid);
+      field.fill(3.0);
+      FineSurface fine(0);
+      fine.update(body.surface(), 0.9 * grid.min_spacing());
+      GridBand band(grid, fluid::face_centrings[c], {across, across, across});
+      band.update(fine, 1.5 * grid.spacing(2));
+      InsidePoints inside;
+      inside.find(band, grid.spacing(0));
+      inside.multiply(0.5, grid, field.points()[c]);
+      const fluid::ConstView values = std::as_const(field).points()[c];
+      int changed = 0;
+      for (int k = -1; k <= values.extent[2]; ++k)
+        for (int j = -1; j <= values.extent[1]; ++j)
+          for (int i = -1; i <= values.extent[0]; ++i) {
+            if ((i == -1 && component == 0) || (j == -1 && component == 1)) continue;
+            const fluid::Vector3 x = fluid::point_position(grid, fluid::face_centrings[c], i, j, k);
+            const Vector in_box(std::max(x[0], 0.6 - x[0]), std::max(x[1], -0.4 - x[1]), x[2]);
+            const bool is_inside = body.level(in_box) < 0.0;
+            changed += is_inside ? 1 : 0;
+            ASSERT_EQ(values(i, j, k), is_inside ? 1.5 : 3.0) << component << ": " << i << " " << j << " " << k;
+          }
+      EXPECT_GT(changed, 100);
+    }
   }
 }
 

@@ -111,7 +111,7 @@ TEST(SharpPlan, WarnsOfStepsThatAreTooShortForTheirInertia) {
 TEST(SharpPlan, SaysWhatOfItsRegionIsMapped) {
   const PlanText plan(sharp({}));
   plan.has("are mapped: other limits are those of \"delta\"");
-  plan.has("no mirrors, and walls at least 1.5 h off");
+  plan.has("other limits are those of \"delta\"; walls at least 1.5 h off");
   PlanText(sharp({"coupling.kernel=bao6"})).has("walls at least 2.5 h off");
   plan.has("error of the grid               of second order");
   for (const char* cells : {"domain.cells=16", "domain.cells=48"}) {  // across a vesicle, between markers
