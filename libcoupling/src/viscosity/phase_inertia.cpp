@@ -75,6 +75,11 @@ void PhaseInertia::convect(Level& level) {
   if (!level.convection.empty()) fluid::convection(level.outer, level.convection[0]);
 }
 
+// 1 inside, 0 outside.
+double PhaseInertia::blend(const Body& body, double distance) {
+  return body.sharp->blend(distance / smoothing);
+}
+
 void PhaseInertia::begin(const fluid::FaceVector& velocity) {
   Level& level = levels_[now_];
   copy(velocity, level.outer);
@@ -149,8 +154,8 @@ void PhaseInertia::prepare_outside(int component, const fluid::NavierStokes& flu
 // At the points inside of a body, with the outer phase where the smooth step lets it.
 void PhaseInertia::prepare_inside(int component, std::size_t body, const fluid::NavierStokes& fluid) {
   const auto c = static_cast<std::size_t>(component);
-  const auto& [sharp, ratio] = bodies_[body];
-  const GridBand& band = sharp->band(component);
+  const double ratio = bodies_[body].ratio;
+  const GridBand& band = bodies_[body].sharp->band(component);
   const OuterPast outer = outer_past(component);
   const fluid::ConstView velocity = fluid.velocity().points()[c], earlier = fluid.previous_velocity().points()[c];
   const fluid::View force = explicit_.points()[c], next = next_w().points()[c];
@@ -172,20 +177,20 @@ void PhaseInertia::prepare_inside(int component, std::size_t body, const fluid::
   for (const InsidePoints::Run& run : inside_.runs())
     for (int i = run.first; i < run.last; ++i) put({i, run.j, run.k}, 1.0);
   for_band(band, [&](const GridBand::Point& point) {
-    if (band.is_inside(point.at)) put(point.index, sharp->blend(point.distance()));
+    if (band.is_inside(point.at)) put(point.index, blend(bodies_[body], point.distance()));
   });
 }
 
 // Outside of a body, but within the smooth step: a share of the outer phase becomes one of the body's, whatever the point is in.
 void PhaseInertia::prepare_next_to(int component, std::size_t body) {
   const auto c = static_cast<std::size_t>(component);
-  const auto& [sharp, ratio] = bodies_[body];
-  const GridBand& band = sharp->band(component);
+  const double ratio = bodies_[body].ratio;
+  const GridBand& band = bodies_[body].sharp->band(component);
   const OuterPast outer = outer_past(component);
   const fluid::View force = explicit_.points()[c];
   const fluid::ConstView next = std::as_const(next_w()).points()[c];
   for_band(band, [&](const GridBand::Point& point) {
-    const double theta = sharp->blend(point.distance());
+    const double theta = blend(bodies_[body], point.distance());
     if (theta == 0.0 || band.is_inside(point.at)) return;
     const std::optional<Past> inner = inner_past(component, body, point.index);
     if (!inner) return;
@@ -242,7 +247,7 @@ void PhaseInertia::add_to(fluid::FaceVector& density) const {
     for (const Body& body : bodies_) {
       const GridBand& band = body.sharp->band(c);
       for_band(band, [&](const GridBand::Point& point) {
-        const double theta = body.sharp->blend(point.distance());
+        const double theta = blend(body, point.distance());
         if (theta == 0.0 || theta == 1.0) return;
         const double share = band.is_inside(point.at) ? -(1.0 - theta) : theta / body.ratio;
         const double more = of_jump * share * band.jump(point.at);
