@@ -74,11 +74,15 @@ void expect_same(SceneSimulation& a, SceneSimulation& b) {
     EXPECT_TRUE((x.vesicles[i].interface_velocity == y.vesicles[i].interface_velocity).all());
     ASSERT_EQ(x.vesicles[i].previous_interface_velocity.rows(), y.vesicles[i].previous_interface_velocity.rows());
     EXPECT_TRUE((x.vesicles[i].previous_interface_velocity == y.vesicles[i].previous_interface_velocity).all());
+    EXPECT_EQ(x.vesicles[i].inner_velocity, y.vesicles[i].inner_velocity);
+    EXPECT_EQ(x.vesicles[i].previous_inner_velocity, y.vesicles[i].previous_inner_velocity);
   }
   EXPECT_TRUE(std::equal(x.velocity.x.data(), x.velocity.x.data() + x.velocity.x.size(), y.velocity.x.data()));
-  ASSERT_EQ(x.phases.size(), y.phases.size());
-  for (std::size_t i = 0; i < x.phases.size(); ++i)
-    EXPECT_TRUE(std::equal(x.phases[i].x.data(), x.phases[i].x.data() + x.phases[i].x.size(), y.phases[i].x.data()));
+  ASSERT_EQ(x.outer_velocities.size(), y.outer_velocities.size());
+  for (std::size_t i = 0; i < x.outer_velocities.size(); ++i) {
+    const auto &one = x.outer_velocities[i].x, &other = y.outer_velocities[i].x;
+    EXPECT_TRUE(std::equal(one.data(), one.data() + one.size(), other.data()));
+  }
   EXPECT_TRUE(std::equal(x.pressure.data(), x.pressure.data() + x.pressure.size(), y.pressure.data()));
 }
 
@@ -131,15 +135,17 @@ TEST(SharpMembrane, AStateMustHaveAVelocityOfTheInterfaceThatIsOne) {
 }
 TEST(SharpMembrane, GivesTheSameBitsForEveryNumberOfThreads) {
   const int before = omp_get_max_threads();
-  const auto positions_with = [](int threads) {
+  const auto positions_with = [](int threads, const char* inertia) {
     omp_set_num_threads(threads);
-    SceneSimulation simulation(sharp({five}));
+    SceneSimulation simulation(sharp({five, inertia}));
     advance(simulation, 4);
     return vesicle::VectorField(simulation.membrane(0).positions());
   };
-  const vesicle::VectorField one = positions_with(1), three = positions_with(3);
+  for (const char* inertia : {"fluid.inertia=none", "fluid.inertia=full"}) {
+    const vesicle::VectorField one = positions_with(1, inertia), three = positions_with(3, inertia);
+    EXPECT_TRUE((one == three).all()) << inertia;
+  }
   omp_set_num_threads(before);
-  EXPECT_TRUE((one == three).all());
 }
 
 TEST(SharpMembrane, WarmedUpStepsAllocateNothing) {
@@ -248,22 +254,50 @@ TEST(SharpMembrane, AVesicleBesideOneOfAnotherViscosityFeelsTheSameFlow) {
   EXPECT_LT((equal_inside - thick_inside).norm(), 5e-3);
 }
 
-// A third of a spacing apart across the end of the box as in the middle of it: twelve cells further on all is the same.
+// A third of a spacing apart.
+Scene two_side_by_side(const Overrides& overrides, double first, double second) {
+  Overrides all{"domain.periodic=[true, true, false]"};
+  all.insert(all.end(), overrides.begin(), overrides.end());
+  Scene scene = sharp(all);
+  scene.vesicles[0].shape = Shape::sphere;
+  scene.vesicles[0].reduced_volume.reset();
+  scene.vesicles.push_back(scene.vesicles[0]);
+  scene.vesicles[0].centre = {first, 0.1, 0.2};
+  scene.vesicles[1].centre = {second, 0.1, -0.1};
+  return scene;
+}
+
+// Across the end of the box as in the middle of it: twelve cells further on all is the same.
 TEST(SharpMembrane, NeighboursAreFoundAcrossTheEndOfThePeriod) {
-  const auto velocity = [](double first, double second) {
-    Scene scene = sharp({five, "domain.periodic=[true, true, false]"});
-    scene.vesicles[0].shape = Shape::sphere;
-    scene.vesicles[0].reduced_volume.reset();
-    scene.vesicles.push_back(scene.vesicles[0]);
-    scene.vesicles[0].centre = {first, 0.1, 0.2};
-    scene.vesicles[1].centre = {second, 0.1, -0.1};
-    SceneSimulation simulation(scene);
-    advance(simulation, 2);
-    return vesicle::VectorField(simulation.marker_velocity(0));
-  };
-  const double half = 1.03;
-  const vesicle::VectorField inside = velocity(-half, half), across = velocity(3.0 - half, -3.0 + half);
-  EXPECT_LT((inside - across).abs().maxCoeff(), 1e-6);
+  for (const char* inertia : {"fluid.inertia=none", "fluid.inertia=full"}) {
+    const auto velocity = [&](double first, double second) {
+      SceneSimulation simulation(two_side_by_side({five, inertia}, first, second));
+      advance(simulation, 4);
+      return vesicle::VectorField(simulation.marker_velocity(0));
+    };
+    const double half = 1.03;
+    const vesicle::VectorField inside = velocity(-half, half), across = velocity(3.0 - half, -3.0 + half);
+    EXPECT_LT((inside - across).abs().maxCoeff(), 1e-6) << inertia;
+  }
+}
+
+// Each has an inside of its own, which its state has too.
+TEST(SharpMembrane, NeighboursWithInertiaGoOnBitForBit) {
+  Scene scene = two_side_by_side({five, "fluid.inertia=full"}, -1.03, 1.03);
+  scene.vesicles[1].viscosity_ratio = 0.5;
+  SceneSimulation whole(scene), restored(scene);
+  advance(whole, 5);
+  SimulationState state = whole.state();
+  restored.restore(state);
+  for (SceneSimulation* s : {&whole, &restored}) advance(*s, 3);
+  expect_same(whole, restored);
+  std::swap(state.vesicles[0].inner_velocity, state.vesicles[1].inner_velocity);
+  std::swap(state.vesicles[0].previous_inner_velocity, state.vesicles[1].previous_inner_velocity);
+  restored.restore(state);
+  advance(restored, 3);
+  EXPECT_FALSE((restored.marker_velocity(0) == whole.marker_velocity(0)).all());
+  state.vesicles[1].inner_velocity.clear();
+  EXPECT_THROW(restored.restore(state), std::invalid_argument);
 }
 
 }  // namespace

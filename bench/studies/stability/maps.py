@@ -256,7 +256,6 @@ STIFF_STARTS = Map(
 
 # The same without thickness. Nothing is recommended beyond what the delta function is recommended for.
 SHARP = {"coupling.method": "sharp"}
-SPACING = 12 / 64  # of the scene of the maps
 SHARP_SHAPES = dataclasses.replace(
     SHAPES, name="sharp_shapes", title="sharp membranes: reduced volume and capillary number",
     keys=lambda *cell: SHAPES.keys(*cell) | SHARP)
@@ -264,8 +263,8 @@ SHARP_INERTIA = Map(
     "sharp_inertia", "sharp membranes: Reynolds number and time step", ("sigma0 = 2000", "sigma0 = 20000"), INERTIA.x, INERTIA.y, 6,
     lambda panel, dt, reynolds: {"time.step": dt, "fluid.reynolds_number": reynolds, "membrane.sigma0": int(panel.split()[-1])} | SHARP,
     lambda panel, dt, reynolds: reynolds,
-    # Not steps so short that the grid does not resolve what inertia makes of them, nor g beyond what is recommended.
-    lambda panel, dt, reynolds, convection: number(dt) <= min(convection, 1 / 12) and reynolds <= 10 and reynolds * SPACING**2 / number(dt) <= 40
+    # Not g beyond what is recommended.
+    lambda panel, dt, reynolds, convection: number(dt) <= min(convection, 1 / 12) and reynolds <= 10
     and (reynolds < 1 or panel == "sigma0 = 2000"),
     "docs/time_integration.md, shape_following and Convection", quick_panels=("sigma0 = 2000",))
 SHARP_CONTRAST = Map(

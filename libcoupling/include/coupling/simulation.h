@@ -37,6 +37,11 @@ struct VesicleState {
   /// iteration begins with in the next step.
   vesicle::VectorField interface_velocity = {};
   vesicle::VectorField previous_interface_velocity = {};  ///< the same one step ago; empty if there was none
+
+  /// Where there is inertia too: mu u inside, continued out of the membrane, in a box of the grid around it, and the same one step
+  /// ago. The first point and the number of points along each axis, then the components as fields of such a grid hold them, with
+  /// their ghosts. Else, and before the first step, empty.
+  std::vector<double> inner_velocity = {}, previous_inner_velocity = {};
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {
@@ -55,9 +60,9 @@ struct SimulationState {
   std::vector<double> step_control;    ///< of adaptive steps, and of a start in parts; else empty
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
 
-  /// Sharp membranes between two viscosities in a fluid with inertia: mu u of the outer fluid, continued into the
-  /// membranes, and of the inner ones, continued out of them, now and one step ago. Else, and before the first step, empty.
-  std::vector<fluid::FaceVector> phases = {};
+  /// Sharp membranes between two viscosities in a fluid with inertia: the velocity of the outer fluid, continued into the
+  /// membranes, now and one step ago. Else, and before the first step, empty.
+  std::vector<fluid::FaceVector> outer_velocities = {};
 };
 
 /// The velocity of the fluid of a state, which SimulationState::velocity is but for sharp membranes between two
@@ -221,6 +226,7 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   double improve_interfaces();
   void prepare_inertia(double dt);
   void keep_phases();
+  void restore_phases(const SimulationState& state);
   fluid::Vector3 mean_flow() const;
   void read_velocity(ImmersedVesicle& vesicle);
   void move_markers(double dt);

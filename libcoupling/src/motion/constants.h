@@ -158,6 +158,8 @@ inline constexpr double in_plane_decay_of_owed = 0.2;
 /// Points of the quadrature in the angle atan(k_z/k): errors below 1e-3
 /// (tests/coupling/motion/membrane_response_test.cpp).
 inline constexpr int response_quadrature_points = 200;
+/// Places of a sheet between two points of the grid, midpoint rule: 64 change the means by less than 2e-3 of them.
+inline constexpr int positions_of_sheet = 16;
 /// Means of f_i^2 n_i^2, summed, over the orientations of a sheet of normal n: 3/5 for f = n, and 1/5 for f normal to
 /// n.
 inline constexpr double normal_share_of_normal_force = 0.6;

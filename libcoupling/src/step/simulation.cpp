@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "coupling/errors.h"
 #include "coupling/flow.h"
@@ -270,10 +271,27 @@ SimulationState Simulation::state() const {
                               v->previous_interface_velocity()});
   }
   state.clock.steps = steps();
-  if (phase_inertia_ && fluid_.steps() > 0) state.phases = phase_inertia_->state();
+  if (phase_inertia_ && fluid_.steps() > 0) {
+    state.outer_velocities = phase_inertia_->outer_state();
+    std::size_t body = 0;
+    for (std::size_t i = 0; i < vesicles_.size(); ++i) {
+      if (!vesicles_[i]->two_phase) continue;
+      auto [now, before] = phase_inertia_->inner_state(body++);
+      state.vesicles[i].inner_velocity = std::move(now);
+      state.vesicles[i].previous_inner_velocity = std::move(before);
+    }
+  }
   if (step_control_) state.step_control = step_control_->state();
   if (start_control_) state.step_control = start_control_->state();
   return state;
+}
+
+void Simulation::restore_phases(const SimulationState& state) {
+  std::vector<PhaseInertia::InnerState> inner;
+  for (std::size_t i = 0; i < vesicles_.size(); ++i)
+    if (vesicles_[i]->two_phase)
+      inner.push_back({state.vesicles[i].inner_velocity, state.vesicles[i].previous_inner_velocity});
+  phase_inertia_->restore(state.outer_velocities, inner, fluid_);
 }
 
 void Simulation::restore(const SimulationState& state) {
@@ -300,7 +318,7 @@ void Simulation::restore(const SimulationState& state) {
       v.restore_interface_velocity(state.vesicles[i].interface_velocity, state.vesicles[i].previous_interface_velocity);
     if (v.two_phase) v.update();  // the mean flow is of its present shape
   }
-  if (phase_inertia_ && fluid_.steps() > 0) phase_inertia_->restore(state.phases, fluid_);
+  if (phase_inertia_ && fluid_.steps() > 0) restore_phases(state);
   mean_flow_ = mean_flow();
   for (auto& v : vesicles_) {
     v->mean_flow = mean_flow_;

@@ -75,6 +75,11 @@ void write_vesicle(Hdf5File& file, const std::string& group, const coupling::Ves
   if (state.previous_interface_velocity.size() > 0)
     write_array(file, group + "/previous_interface_velocity", state.previous_interface_velocity.data(),
                 state.previous_interface_velocity.size());
+  const auto write_row = [&](const std::string& name, const std::vector<double>& row) {
+    if (!row.empty()) write_array(file, group + name, row.data(), static_cast<Eigen::Index>(row.size()));
+  };
+  write_row("/inner_velocity", state.inner_velocity);
+  write_row("/previous_inner_velocity", state.previous_inner_velocity);
 }
 
 coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
@@ -105,6 +110,10 @@ coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& gro
   };
   read_velocity("/interface_velocity", state.interface_velocity);  // of sharp membranes between two viscosities
   read_velocity("/previous_interface_velocity", state.previous_interface_velocity);
+  if (file.exists(group + "/inner_velocity")) {  // of those in a fluid with inertia
+    state.inner_velocity = file.read(group + "/inner_velocity");
+    state.previous_inner_velocity = file.read(group + "/previous_inner_velocity");
+  }
   return state;
 }
 
@@ -242,9 +251,8 @@ auto as_input(const Read& read) {
   }
 }
 
-/// Of SimulationState::phases.
-constexpr std::array<const char*, 4> phase_names{"/outer_velocity", "/inner_velocity", "/previous_outer_velocity",
-                                                 "/previous_inner_velocity"};
+/// Of SimulationState::outer_velocities.
+constexpr std::array<const char*, 2> outer_names{"/outer_velocity", "/previous_outer_velocity"};
 
 coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
   const fluid::Grid grid = coupling::grid_of(scene);
@@ -258,8 +266,8 @@ coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, c
   read_velocity(file, "/previous_velocity", state.previous_velocity, path);
   read_field(file, "/pressure", state.pressure, path);
   if (file.exists("/step_control")) state.step_control = file.read("/step_control");
-  if (file.exists(phase_names[0]))  // of sharp membranes between two viscosities, with inertia
-    for (const char* name : phase_names) read_velocity(file, name, state.phases.emplace_back(grid), path);
+  if (file.exists(outer_names[0]))  // of sharp membranes between two viscosities, with inertia
+    for (const char* name : outer_names) read_velocity(file, name, state.outer_velocities.emplace_back(grid), path);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     const Eigen::Index latitudes = scene.latitudes(i);
     state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
@@ -288,7 +296,8 @@ void write_checkpoint(const std::filesystem::path& path, const SceneSimulation& 
     write_velocity(file, "/velocity", state.velocity);
     write_velocity(file, "/previous_velocity", state.previous_velocity);
     write_field(file, "/pressure", state.pressure);
-    for (std::size_t i = 0; i < state.phases.size(); ++i) write_velocity(file, phase_names[i], state.phases[i]);
+    for (std::size_t i = 0; i < state.outer_velocities.size(); ++i)
+      write_velocity(file, outer_names[i], state.outer_velocities[i]);
     if (!state.step_control.empty())
       write_array(file, "/step_control", state.step_control.data(),
                   static_cast<Eigen::Index>(state.step_control.size()));

@@ -44,7 +44,7 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
   add_velocity(sum, state.previous_velocity);
   add_array(sum, state.pressure);
   add_array(sum, state.step_control);
-  for (const fluid::FaceVector& phase : state.phases) add_velocity(sum, phase);
+  for (const fluid::FaceVector& velocity : state.outer_velocities) add_velocity(sum, velocity);
   for (const coupling::VesicleState& vesicle : state.vesicles) {
     add_membrane(sum, vesicle.membrane);
     add_array(sum, vesicle.motion_history);
@@ -53,6 +53,8 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
     // Other states are summed as they were before there was such a velocity.
     if (vesicle.interface_velocity.size() > 0) add_array(sum, vesicle.interface_velocity);
     if (vesicle.previous_interface_velocity.size() > 0) add_array(sum, vesicle.previous_interface_velocity);
+    for (const auto* row : {&vesicle.inner_velocity, &vesicle.previous_inner_velocity})
+      if (!row->empty()) add_array(sum, *row);
   }
   if (state.start) {
     sum.add(state.start->run);

@@ -66,15 +66,19 @@ MemoryPlan plan_memory(const Scene& scene) {
     // The source of the divergence, and the velocity that is shown where it is not the one that is solved for.
     plan.fluid += (scene.has_scaled_velocity() ? 4.0 : 1.0) * field;
     plan.membranes += sharp_bytes(scene);
-    if (scene.has_phase_inertia())  // three times of two phases, with their convection, and a force
-      plan.fluid += 3.0 * (scene.fluid.inertia == fluid::Inertia::full ? 13.0 : 7.0) * field;
+    if (scene.has_phase_inertia()) {  // three times of both phases, with their convection, and a force
+      const double at_each_time = scene.fluid.inertia == fluid::Inertia::full ? 6.0 : 3.0;
+      plan.fluid += (3.0 * at_each_time + 3.0) * field;
+      plan.membranes += 3.0 * at_each_time * inner_phase_bytes(scene);
+    }
   }
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
   const double remembered = (viscosity.is_variable ? 5.0 : 4.0) * field;
   if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit || scene.corrects_fluid())
     plan.steps = remembered;
-  // Two velocities and a pressure; four single precision numbers per cell.
-  if (scene.output.checkpoint_every > 0.0) plan.output = (scene.has_phase_inertia() ? 19.0 : 7.0) * field;
+  // Two velocities and a pressure, of two phases more velocities; four single precision numbers per cell.
+  if (scene.output.checkpoint_every > 0.0)
+    plan.output = scene.has_phase_inertia() ? 13.0 * field + 6.0 * inner_phase_bytes(scene) : 7.0 * field;
   if (scene.output.fluid_every > 0.0) plan.output = std::max(plan.output, 2.0 * field);
   if (plan.steps == 0.0 && scene.follows_shape())
     plan.steps = std::max(0.0, remembered - plan.output);  // of the start only

@@ -65,18 +65,10 @@ std::string describe_sharp_region(const Scene& scene) {
   else if (scene.has_phase_inertia() && least < thin_sharp_ratio &&
            vesicle_reynolds_number(scene) > largest_reynolds_number_of_thin_sharp)
     warning = fmt::format(
-        "  <- WARNING: a fluid of ratio {:g} inside blows up at such Reynolds numbers: take fluid.reynolds_number <= "
+        "  <- WARNING: a fluid of ratio {:g} inside can blow up at such Reynolds numbers: take fluid.reynolds_number <= "
         "{:g}, "
         "ratios >= {:g} or coupling.method = \"delta\"",
         least, largest_reynolds_number_of_thin_sharp, thin_sharp_ratio);
-  const double h = scene.spacing();
-  const double shortest = scene.fluid.reynolds_number * h * h / validity::largest_cell_inertia_of_sharp;
-  if (warning.empty() && scene.fluid.inertia != fluid::Inertia::none && !scene.time.adaptive &&
-      scene.time.step < shortest)
-    warning = fmt::format(
-        "  <- WARNING: with such short steps, for this inertia and grid, runs blow up: take time.step >= {:.2g}, more "
-        "domain.cells or coupling.method = \"delta\"",
-        shortest);
   return fmt::format(
       "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "
       "limits are those of "

@@ -37,7 +37,7 @@ double least_reduced_volume(const Scene& scene) {
   return least;
 }
 
-// Where the inertia of two phases blows up, and where steps are too short for the grid's inertia: docs/coupling.md#sharp-membranes.
+// Where the inertia of two phases blows up: docs/coupling.md#sharp-membranes.
 std::string limit_of_inertia(const Scene& scene) {
   if (scene.fluid.inertia == fluid::Inertia::none) return "";
   const double ratio = scene.viscosity_range().least, re = vesicle_reynolds_number(scene);
@@ -45,10 +45,6 @@ std::string limit_of_inertia(const Scene& scene) {
       (ratio < validity::thinnest_sharp_ratio ||
        (ratio < validity::thin_sharp_ratio && re > validity::largest_reynolds_number_of_thin_sharp)))
     return fmt::format("with inertia, sharp membranes around a fluid of ratio {:g} blow up", ratio);
-  const double h = scene.spacing();
-  const double shortest = scene.time.adaptive ? scene.time.smallest_step : scene.time.step;
-  if (scene.fluid.reynolds_number * h * h > validity::largest_cell_inertia_of_sharp * shortest)
-    return "steps are too short for the inertia of a cell of a sharp membrane";
   return "";
 }
 

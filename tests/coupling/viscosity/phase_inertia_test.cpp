@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "transfer/ellipsoid.h"
 #include "transfer/sharp_body.h"
@@ -20,30 +24,41 @@ using Vector = Eigen::Vector3d;
 
 const fluid::Grid periodic_box({-2, -2, -2}, {2, 2, 2}, {20, 20, 20}, {true, true, true});
 
-/// A body in a stream that is the same everywhere and speeds up. Both phases go with it, so that their accelerations are those
-/// of the stream; w = mu u is another on its two sides, and points of the grid are now on one, now on the other.
+/// Bodies in a stream that is the same everywhere and speeds up. All phases go with it, so that their accelerations are
+/// those of the stream; w = mu u is another on the two sides of each body, and points of the grid are now on one, now on
+/// the other.
 struct Stream {
+  struct Part {
+    Vector half_axes, centre;
+    double ratio;
+  };
   Vector start, growth;
-  double ratio;
+  std::vector<Part> parts;
 
   Vector velocity(double t) const { return start + t * growth; }
-  Ellipsoid body(double t) const {
-    // Across the end of the box.
-    return {{0.7, 0.9, 1.1}, Vector(1.5, -0.2, 0.1) + t * start + 0.5 * t * t * growth};
+  Ellipsoid body(std::size_t part, double t) const {
+    return {parts[part].half_axes, parts[part].centre + t * start + 0.5 * t * t * growth};
+  }
+  /// That of the part that a point of the box is in, or 1.
+  double viscosity(double t, const Vector& x) const {
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      const Ellipsoid ellipsoid = body(part, t);
+      Vector from = x - ellipsoid.centre();  // in the image that is nearest
+      for (int axis = 0; axis < 3; ++axis) from[axis] = std::remainder(from[axis], 4.0);
+      if (from.norm() < parts[part].half_axes.maxCoeff() && ellipsoid.closest(ellipsoid.centre() + from).distance < 0.0)
+        return parts[part].ratio;
+    }
+    return 1.0;
   }
   /// w on the grid.
   fluid::FaceVector scaled(double t) const {
     fluid::FaceVector w(periodic_box);
     const auto set = [&](auto& component, int axis) {
-      const double u = velocity(t)[axis];
       for (int k = -1; k <= component.extent(2); ++k)
         for (int j = -1; j <= component.extent(1); ++j)
           for (int i = -1; i <= component.extent(0); ++i) {
             const fluid::Vector3 at = component.position(i, j, k);
-            bool inside = false;
-            for (const double image : {-4.0, 0.0, 4.0})
-              inside = inside || body(t).closest(Vector(at[0] + image, at[1], at[2])).distance < 0.0;
-            component(i, j, k) = inside ? ratio * u : u;
+            component(i, j, k) = viscosity(t, {at[0], at[1], at[2]}) * velocity(t)[axis];
           }
     };
     set(w.x, 0);
@@ -51,74 +66,136 @@ struct Stream {
     set(w.z, 2);
     return w;
   }
-  /// Moves the body there and tells it its jump.
-  void meet(double t, SharpBody& at) const {
-    at.move(body(t).markers(at.surface.grid()));
-    VectorField jump(at.surface.positions().rows(), 3);
-    jump.rowwise() = ((1.0 - ratio) * velocity(t)).transpose().array();
-    at.sharp.set_force(VectorField::Zero(jump.rows(), 3), &jump);
-  }
 };
 
-TEST(PhaseInertia, GivesBothPhasesTheAccelerationOfAStreamThatCarriesThem) {
+/// What a simulation has of them.
+class BodiesInStream {
+ public:
+  explicit BodiesInStream(const Stream& stream) : stream_(stream) {
+    for (std::size_t part = 0; part < stream.parts.size(); ++part)
+      bodies_.push_back(std::make_unique<SharpBody>(periodic_box, markers_, stream.body(part, 0.0).markers(markers_),
+                                                    SharpTransfer::Parameters{.more_reach = PhaseInertia::more_reach}));
+  }
+
+  PhaseInertia inertia(double reynolds_number) const {
+    std::vector<PhaseInertia::Body> bodies;
+    for (std::size_t part = 0; part < bodies_.size(); ++part)
+      bodies.push_back({&bodies_[part]->sharp, stream_.parts[part].ratio});
+    return {periodic_box, reynolds_number, std::move(bodies), true};
+  }
+  /// Moves the bodies there and tells them their jumps.
+  void meet(double t) {
+    for (std::size_t part = 0; part < bodies_.size(); ++part) {
+      bodies_[part]->move(stream_.body(part, t).markers(markers_));
+      VectorField jump(markers_.size(), 3);
+      jump.rowwise() = ((1.0 - stream_.parts[part].ratio) * stream_.velocity(t)).transpose().array();
+      bodies_[part]->sharp.set_force(VectorField::Zero(jump.rows(), 3), &jump);
+    }
+  }
+
+ private:
+  const Stream& stream_;
+  vesicle::SphereGrid markers_{16};
+  std::vector<std::unique_ptr<SharpBody>> bodies_;
+};
+
+/// Largest error of the acceleration that solver and force give to the fluid, over that of the solver alone, and the
+/// largest of that.
+struct Errors {
+  double of_both = 0.0, swept = 0.0;
+};
+Errors errors_in(const Stream& stream) {
   constexpr double reynolds_number = 3.0, first_dt = 0.05, dt = 0.08;
   constexpr double times[] = {0.0, first_dt, first_dt + dt};
-  const vesicle::SphereGrid markers(16);
-  for (const double ratio : {0.2, 5.0, 20.0}) {
-    const Stream stream{{0.9, -0.5, 0.7}, {2.0, 1.0, -3.0}, ratio};
-    SharpBody body(periodic_box, markers, stream.body(0.0).markers(markers), {.more_reach = PhaseInertia::more_reach});
-    PhaseInertia inertia(periodic_box, reynolds_number, {{&body.sharp, ratio}}, true);
-    for (const double t : {times[0], times[1]}) {
-      stream.meet(t, body);
-      inertia.keep(stream.scaled(t));
-    }
-    fluid::NavierStokes fluid(periodic_box, {});
-    fluid.restore(stream.scaled(times[1]), stream.scaled(times[0]), fluid::Field<fluid::Cell>(periodic_box),
-                  {.time = times[1], .previous_time = times[0], .time_step = first_dt, .steps = 1});
-    stream.meet(times[2], body);
-    const double a = inertia.prepare(fluid, dt);
-    const double solved = PhaseInertia::solved_reynolds_number(reynolds_number, ratio);
-    const double r = dt / first_dt, c0 = (1 + 2 * r) / (1 + r) / dt, c1 = -(1 + r) / dt, c2 = r * r / (1 + r) / dt;
-    EXPECT_NEAR(a, solved * c0, 1e-12 * a);
-    fluid::FaceVector force(periodic_box);
-    force.fill(0.0);
-    inertia.add_to(force);
+  BodiesInStream bodies(stream);
+  PhaseInertia inertia = bodies.inertia(reynolds_number);
+  for (const double t : {times[0], times[1]}) {
+    bodies.meet(t);
+    inertia.keep(stream.scaled(t));
+  }
+  fluid::NavierStokes fluid(periodic_box, {});
+  fluid.restore(stream.scaled(times[1]), stream.scaled(times[0]), fluid::Field<fluid::Cell>(periodic_box),
+                {.time = times[1], .previous_time = times[0], .time_step = first_dt, .steps = 1});
+  bodies.meet(times[2]);
+  const double a = inertia.prepare(fluid, dt);
+  const double least = std::ranges::min(stream.parts, {}, &Stream::Part::ratio).ratio;
+  const double solved = PhaseInertia::solved_reynolds_number(reynolds_number, least);
+  const double r = dt / first_dt, c0 = (1 + 2 * r) / (1 + r) / dt, c1 = -(1 + r) / dt, c2 = r * r / (1 + r) / dt;
+  EXPECT_NEAR(a, solved * c0, 1e-12 * a);
+  fluid::FaceVector force(periodic_box);
+  force.fill(0.0);
+  inertia.add_to(force);
 
-    const fluid::FaceVector next = stream.scaled(times[2]);
-    double error = 0.0, swept = 0.0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto f = std::as_const(force).points()[c], w2 = next.points()[c], w1 = fluid.velocity().points()[c],
-                 w0 = fluid.previous_velocity().points()[c];
-      const double acceleration = reynolds_number * stream.growth[static_cast<Eigen::Index>(c)];
-      for (int k = 0; k < f.extent[2]; ++k)
-        for (int j = 0; j < f.extent[1]; ++j)
-          for (int i = 0; i < f.extent[0]; ++i) {
-            const double of_solver = solved * (c0 * w2(i, j, k) + c1 * w1(i, j, k) + c2 * w0(i, j, k));
-            error = std::max(error, std::abs(of_solver - f(i, j, k) - acceleration));
-            swept = std::max(swept, std::abs(of_solver));
-          }
+  const fluid::FaceVector next = stream.scaled(times[2]);
+  Errors errors;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto f = std::as_const(force).points()[c], w2 = next.points()[c], w1 = fluid.velocity().points()[c],
+               w0 = fluid.previous_velocity().points()[c];
+    const double acceleration = reynolds_number * stream.growth[static_cast<Eigen::Index>(c)];
+    for (int k = 0; k < f.extent[2]; ++k)
+      for (int j = 0; j < f.extent[1]; ++j)
+        for (int i = 0; i < f.extent[0]; ++i) {
+          const double of_solver = solved * (c0 * w2(i, j, k) + c1 * w1(i, j, k) + c2 * w0(i, j, k));
+          errors.of_both = std::max(errors.of_both, std::abs(of_solver - f(i, j, k) - acceleration) / a);
+          errors.swept = std::max(errors.swept, std::abs(of_solver) / a);
+        }
+  }
+  return errors;
+}
+
+const Vector start(0.9, -0.5, 0.7), growth(2.0, 1.0, -3.0);
+
+TEST(PhaseInertia, GivesBothPhasesTheAccelerationOfAStreamThatCarriesThem) {
+  for (const double ratio : {0.2, 5.0, 20.0}) {
+    const Stream stream{start, growth, {{{0.7, 0.9, 1.1}, {1.5, -0.2, 0.1}, ratio}}};  // across the end of the box
+    const Errors errors = errors_in(stream);
+    EXPECT_LT(errors.of_both, 1e-8) << ratio;
+    EXPECT_GT(errors.swept, 0.1) << "no point has changed sides";
+  }
+}
+
+// Each is continued into its surroundings, which are those of the other one too, and into its inside.
+TEST(PhaseInertia, GivesBodiesNextToEachOtherTheSameAcceleration) {
+  constexpr double spacing = 0.2, radius = 0.8, other_radius = 0.7;
+  const Vector place(1.513, -0.187, 0.104),
+      direction = Vector(-1.0, 0.3, -0.2).normalized();  // across the end of the box
+  for (const double gap : {0.1 * spacing, spacing, 1.5 * spacing, 2.0 * spacing})
+    for (const auto& [first, second] : {std::pair{0.2, 5.0}, {20.0, 0.5}}) {
+      const Stream stream{
+          start,
+          growth,
+          {{Vector::Constant(radius), place, first},
+           {Vector::Constant(other_radius), place + (radius + gap + other_radius) * direction, second}}};
+      const Errors errors = errors_in(stream);
+      EXPECT_LT(errors.of_both, 1e-8) << gap << ' ' << first << ' ' << second;
+      EXPECT_GT(errors.swept, 0.1);
     }
-    EXPECT_LT(error, 1e-8 * a) << ratio;
-    EXPECT_GT(swept, 0.1 * a) << "no point has changed sides";
+}
+
+// Nearly as wide as the period: half a spacing from its own images.
+TEST(PhaseInertia, GivesABodyNextToItsImagesTheSameAcceleration) {
+  for (const double ratio : {0.2, 20.0}) {
+    const Errors errors = errors_in({start, growth, {{Vector::Constant(1.95), {1.513, -0.187, 0.104}, ratio}}});
+    EXPECT_LT(errors.of_both, 1e-8) << ratio;
+    EXPECT_GT(errors.swept, 0.1);
   }
 }
 
 TEST(PhaseInertia, GoesOnFromItsStateAndIsTakenBack) {
-  constexpr double dt = 0.05, ratio = 5.0;
-  const vesicle::SphereGrid markers(16);
-  const Stream stream{{0.9, -0.5, 0.7}, {2.0, 1.0, -3.0}, ratio};
-  SharpBody body(periodic_box, markers, stream.body(0.0).markers(markers), {.more_reach = PhaseInertia::more_reach});
-  const auto make = [&] { return PhaseInertia(periodic_box, 1.0, {{&body.sharp, ratio}}, true); };
-  PhaseInertia whole = make(), restored = make();
+  constexpr double dt = 0.05;
+  const Stream stream{
+      start, growth, {{{0.7, 0.9, 1.1}, {1.5, -0.2, 0.1}, 5.0}, {{0.6, 1.0, 0.8}, {0.0, -0.1, 0.1}, 2.0}}};
+  BodiesInStream bodies(stream);
+  PhaseInertia whole = bodies.inertia(1.0), restored = bodies.inertia(1.0);
   for (const double t : {0.0, dt}) {
-    stream.meet(t, body);
+    bodies.meet(t);
     whole.keep(stream.scaled(t));
   }
   fluid::NavierStokes fluid(periodic_box, {});
   fluid.restore(stream.scaled(dt), stream.scaled(0.0), fluid::Field<fluid::Cell>(periodic_box),
                 {.time = dt, .previous_time = 0.0, .time_step = dt, .steps = 1});
   const auto force_of = [&](PhaseInertia& inertia) {
-    stream.meet(2 * dt, body);
+    bodies.meet(2 * dt);
     inertia.prepare(fluid, dt);
     fluid::FaceVector force(periodic_box);
     force.fill(0.0);
@@ -130,17 +207,32 @@ TEST(PhaseInertia, GoesOnFromItsStateAndIsTakenBack) {
     EXPECT_TRUE(std::equal(found.x.data(), found.x.data() + found.x.size(), expected.x.data()));
     EXPECT_TRUE(std::equal(found.z.data(), found.z.data() + found.z.size(), expected.z.data()));
   };
-  restored.restore(whole.state(), fluid);
+  auto outer = whole.outer_state();
+  auto first = whole.inner_state(0), second = whole.inner_state(1);
+  const auto restore = [&] {
+    const PhaseInertia::InnerState inner[] = {{first[0], first[1]}, {second[0], second[1]}};
+    restored.restore(outer, inner, fluid);
+  };
+  restore();
   expect_same(force_of(restored));
   whole.remember();
   whole.keep(stream.scaled(2 * dt));
   whole.take_back();
   expect_same(force_of(whole));
 
-  EXPECT_THROW(restored.restore({}, fluid), std::invalid_argument);
-  auto spoilt = whole.state();
-  spoilt[2].y(3, 4, 5) = NAN;
-  EXPECT_THROW(restored.restore(spoilt, fluid), std::invalid_argument);
+  EXPECT_THROW(restored.restore({}, {}, fluid), std::invalid_argument);
+  const auto refuses = [&](double& value, double other) {
+    const double before = std::exchange(value, other);
+    EXPECT_THROW(restore(), std::invalid_argument) << before << ' ' << other;
+    value = before;
+  };
+  refuses(outer[1].y(3, 4, 5), NAN);
+  refuses(second[1][200], INFINITY);
+  refuses(first[0][0], 0.5);                // a box begins at a point
+  refuses(first[0][4], 1e5);                // and is no larger than its numbers,
+  refuses(first[1][4], first[1][4] + 1.0);  // at both times
+  first[0].pop_back();
+  EXPECT_THROW(restore(), std::invalid_argument);
 }
 
 TEST(RigidResponse, HasTheLimitsOfViscousAndIdealFluids) {
