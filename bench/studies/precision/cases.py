@@ -352,6 +352,36 @@ def tilted_case(quick):
                        {"angle": "inclination_angle_deg", "deformation": "deformation"}, quick)
 
 
+def sharp_preset_case(name, title, keys, columns, quick):
+    """What method.accuracy chooses where it takes sharp membranes, on a scene that was not used to choose it."""
+    width = 8.0
+    levels = ((64, "1e-2"), (128, "1e-3"))[:1 if quick else 2]
+    sweeps = [(f"accuracy {level}", "level", {"cells": n, "method.accuracy": level}) for n, level in levels]
+    fine = SHARP | {"mesh.latitudes": 40 if quick else 64, "time.step": "1/96"}
+    grids = (64, 48) if quick else (128, 96)
+    sweeps += [("sharp", "grid", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": "1/96"} | SHARP) for n in (32, 40, 48)]
+    step = SHARP | {"cells": 40, "mesh.latitudes": 32}
+    return Case(
+        name, f"not used in the choice: {title}", "scenes/poiseuille_off_axis.toml",
+        {"output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2} | keys,
+        sweeps, estimate_of_second_order("sharp, extrapolated from two grids", width, grids, fine), [finest("finest grid", grids[0], fine)],
+        [("time step, on 40 cells", step | {"time.step": "1/96"}, step | {"time.step": "1/384"})], columns, 0.25, width, (1, 0.5, 1))
+
+
+def unseen_contrast_case(quick):
+    return sharp_preset_case("unseen_contrast", "reduced volume 0.85, ratio 3, Ca = 1.5, off the axis of plane Poiseuille flow, to t = 3",
+                             {"fluid.viscosity_ratio": 3, "membrane.capillary_number": 1.5, "vesicles.0.reduced_volume": 0.85, "time.end": 3},
+                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick)
+
+
+def unseen_inertia_case(quick):
+    return sharp_preset_case("unseen_inertia", "reduced volume 0.92, ratio 1.7, Re = 5, Ca = 2, in shear flow from 65 degrees, to t = 3",
+                             {"fluid.viscosity_ratio": 1.7, "fluid.reynolds_number": 5, "membrane.capillary_number": 2, "flow.type": "shear",
+                              "domain.periodic": [False] * 3, "vesicles.0.reduced_volume": 0.92, "vesicles.0.centre": [0, 0, 0],
+                              "vesicles.0.rotation_deg": 25, "time.end": 3},
+                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick)
+
+
 BUILDERS = {
     "tank_treading": shear_case,
     "ratio_5": lambda quick: contrast_case("ratio_5", 5, 70, 4 if quick else 6, 3.0 if quick else 5.0, quick,
@@ -363,6 +393,8 @@ BUILDERS = {
     "extension": extension_case,
     "unseen": unseen_case,
     "unseen_tilted": tilted_case,
+    "unseen_contrast": unseen_contrast_case,
+    "unseen_inertia": unseen_inertia_case,
 }
 
 
