@@ -45,9 +45,10 @@ constexpr double bending_step = 0.5;
 
 constexpr double largest_reynolds_number = 10.0;  ///< that has been compared with anything (V)
 
-constexpr double thin_sharp_ratio = 0.5,          ///< sharp membranes around a thinner fluid than this, with inertia,
-    largest_reynolds_number_of_thin_sharp = 1.0,  ///< are quiet to this; 0.2 blows up at 3 on h = R/4 (docs/coupling.md)
-    thinnest_sharp_ratio = 0.2;                   ///< and down to this ratio; 0.1 blows up at 1
+constexpr double thin_sharp_ratio = 0.5,  ///< sharp membranes around a thinner fluid than this, with inertia,
+    largest_reynolds_number_of_thin_sharp =
+        1.0,                     ///< are quiet to this; 0.2 blows up at 3 on h = R/4 (docs/coupling.md)
+    thinnest_sharp_ratio = 0.2;  ///< and down to this ratio; 0.1 blows up at 1
 
 /// Nearest that a sharp membrane comes to a wall, in spacings: nearer, markers would read points beyond it.
 constexpr double sharp_wall_clearance = 1.5;

@@ -65,7 +65,8 @@ std::string describe_sharp_region(const Scene& scene) {
   else if (scene.has_phase_inertia() && least < thin_sharp_ratio &&
            vesicle_reynolds_number(scene) > largest_reynolds_number_of_thin_sharp)
     warning = fmt::format(
-        "  <- WARNING: a fluid of ratio {:g} inside can blow up at such Reynolds numbers: take fluid.reynolds_number <= "
+        "  <- WARNING: a fluid of ratio {:g} inside can blow up at such Reynolds numbers: take fluid.reynolds_number "
+        "<= "
         "{:g}, "
         "ratios >= {:g} or coupling.method = \"delta\"",
         least, largest_reynolds_number_of_thin_sharp, thin_sharp_ratio);

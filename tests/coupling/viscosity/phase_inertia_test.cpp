@@ -172,6 +172,18 @@ TEST(PhaseInertia, GivesBodiesNextToEachOtherTheSameAcceleration) {
     }
 }
 
+// Flat sides a hundredth of a spacing apart: points are inside of one and within the smooth step of the other.
+TEST(PhaseInertia, GivesBodiesInContactTheSameAcceleration) {
+  const Vector half_axes(1.0, 1.0, 0.6), place(0.513, -0.187, 0.104);
+  const Ellipsoid first(half_axes, place);
+  // Its shortest axis: where the surface is closest to a point next to the centre.
+  const Vector side = (first.point(first.closest(place + Vector(1e-6, 2e-6, 3e-6)).direction) - place).normalized();
+  for (const auto& [inner, other] : {std::pair{0.2, 5.0}, {20.0, 0.5}}) {
+    const Stream stream{start, growth, {{half_axes, place, inner}, {half_axes, place + 1.202 * side, other}}};
+    EXPECT_LT(errors_in(stream).of_both, 1e-8) << inner << ' ' << other;
+  }
+}
+
 // Nearly as wide as the period: half a spacing from its own images.
 TEST(PhaseInertia, GivesABodyNextToItsImagesTheSameAcceleration) {
   for (const double ratio : {0.2, 20.0}) {
