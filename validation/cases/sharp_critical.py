@@ -27,7 +27,7 @@ END, LEAST_ANGLE = 30, -2.0
 # Where to begin to look, on the coarsest grid.
 FIRST = {0.95: {"end of tank-treading": (7.5, 8.0), "onset of tumbling": (10.0, 10.6)},
          0.9: {"end of tank-treading": (6.0, 6.4), "onset of tumbling": (7.6, 8.0)}}
-TOLERANCE = 1e-3  # of a ratio, relative
+TOLERANCE, BRACKET = 1e-3, 0.015  # relative: nearer to a run, or between two runs, the function is interpolated
 
 
 def run_of(volume, ratio, cells):
@@ -40,11 +40,7 @@ def run_of(volume, ratio, cells):
 
 def moments(membrane):
     """(M_xx - M_zz, 2 M_xz)/(M_xx + M_zz) of the volume, by its tetrahedra with the centre."""
-    points, faces = membrane["points"], membrane["faces"]
-    poles = points.reshape(membrane["latitudes"], membrane["longitudes"], 3)[[0, -1]].mean(axis=1) if len(points) == membrane["latitudes"] * membrane[
-        "longitudes"] else None
-    points = np.vstack([points, poles]) if poles is not None else points
-    points = points - points.mean(axis=0)
+    points, faces = membrane["points"] - membrane["points"].mean(axis=0), membrane["faces"]
     a, b, c = (np.concatenate([points[faces[:, i]], points[faces[:, j]]]) for i, j in ((0, 0), (1, 2), (2, 3)))
     volume = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6
     total = a + b + c
@@ -99,7 +95,7 @@ def compute(context):
                     ratios = list(FIRST[volume][name])
                 else:
                     ratios = [round(found[name, cells[cells.index(n) - 1]] * factor, 3) for factor in (1.0, 1.01)]
-                found[name, n] = critical(name, ratios, lambda ratio, n=n: value_of(name, state_of(volume, ratio, n)))
+                found[name, n] = critical(ratios, lambda ratio, n=n: value_of(name, state_of(volume, ratio, n)))
         values["critical"][str(volume)] = {f"{name}, {n}": ratio for (name, n), ratio in found.items()}
         for name in FIRST[volume]:
             ratios = [found[name, n] for n in cells]
@@ -112,20 +108,29 @@ def compute(context):
     return values
 
 
-def critical(name, ratios, function):
-    """By secants, from two ratios; the last step is interpolated only."""
-    known = [(ratio, function(ratio)) for ratio in ratios]
+def critical(ratios, function):
+    """Where the function, positive below and negative above, is zero: by secants, kept inside what is known; the last step is interpolated only."""
+    known = {ratio: function(ratio) for ratio in ratios}
     for _ in range(6):
-        known = sorted((k for k in known if not math.isnan(k[1])), key=lambda k: abs(k[1]))
-        if len(known) < 2:
-            return math.nan
-        (a, f), (b, g) = known[:2]
-        root = b - g * (b - a) / (g - f)
-        root = min(max(root, 0.85 * a), 1.15 * a)
-        if abs(root - a) < TOLERANCE * a or min(abs(a - b), abs(root - a)) < 0.5 * TOLERANCE * a or (f * g < 0 and abs(a - b) < 0.015 * a):
+        told = {r: f for r, f in known.items() if not math.isnan(f)}
+        if len(told) < 2:
+            ratio = round(1.04 * max(known), 3)
+            known[ratio] = function(ratio)
+            continue
+        (a, f), (b, g) = sorted(told.items(), key=lambda point: abs(point[1]))[:2]
+        root = a - f * (b - a) / (g - f)
+        low, high = max((r for r in told if told[r] > 0), default=None), min((r for r in told if told[r] <= 0), default=None)
+        if low is not None and high is not None:
+            if not low <= root <= high:
+                root = low + (high - low) * told[low] / (told[low] - told[high])
+            if high - low < BRACKET * low:
+                return root
+        else:
+            root = min(max(root, 0.9 * a), 1.1 * a)
+        if min(abs(root - r) for r in told) < TOLERANCE * root:
             return root
         ratio = round(root, 3)
-        known.append((ratio, function(ratio)))
+        known[ratio] = function(ratio)
     return root
 
 
@@ -133,7 +138,7 @@ def draw(context, values, path):
     figure, panels = drawing.plt.subplots(1, len(VOLUMES), figsize=(9, 3), sharey=True)
     n = CELLS[context.level][-1]
     for axes, volume in zip(panels, VOLUMES):
-        for i, (name, course) in enumerate(sorted(values["courses"].items())):
+        for name, course in sorted(values["courses"].items()):
             if name.startswith(f"{volume},") and name.endswith(f" {n} cells"):
                 axes.plot(course["time"], course["angle"], linewidth=1, label=name.split(", ")[1])
         axes.set(xlabel="t", title=f"{volume}", ylim=(-100, 50))

@@ -18,7 +18,7 @@ from . import fig8, fig9
 
 TITLE = "the points of figures 8 to 11, sharp membranes on two grids"
 CELLS, LATITUDES = [32, 48], {32: 24, 48: 32}
-NUMBERS = {1: ("1/48", 20), 5: ("1/96", 15), 9: ("1/96", 15)}  # Re: step, end
+NUMBERS = {1: ("1/48", 12), 5: ("1/96", 10), 9: ("1/96", 10)}  # Re: step, end
 ANGLE, PART = 0.3, 0.01  # what was asked: degrees, or of a value
 
 
