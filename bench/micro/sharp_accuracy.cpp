@@ -99,6 +99,10 @@ fluid::FluidParameters quasi_static() {
   return parameters;
 }
 
+fluid::NavierStokes fluid_in_box(const fluid::Grid& grid, const fluid::FluidParameters& parameters) {
+  return {grid, parameters, [](const auto&...) { return fluid::Vector3{}; }};
+}
+
 double radius(const Surface& surface) {
   return std::sqrt(surface.area() / (4.0 * M_PI));
 }
@@ -107,7 +111,7 @@ class SharpMembrane {
  public:
   SharpMembrane(const Surface& surface, int cells, bool has_walls)
       : surface_(surface),
-        fluid_(grid_of(cells, has_walls), quasi_static()),
+        fluid_(fluid_in_box(grid_of(cells, has_walls), quasi_static())),
         delta_(fluid_.grid()),
         transfer_(fluid_.grid(), surface.grid(), {.degrees = degrees(surface, cells)}) {
     delta_.update(surface.positions());
@@ -131,7 +135,7 @@ class SharpMembrane {
       transfer_.interpolate(fluid_.velocity(), velocity);
       if (ratio == 1.0) return velocity;
       if (!fluid_.grid().has_walls()) velocity.rowwise() += mean_flow(interface).transpose().array();
-      if (interface.improve(surface_, velocity) < 1e-6 || solves == 100) return interface.value();
+      if (interface.improve(surface_, velocity) < 3e-6 || solves == 100) return interface.value();
     }
   }
 
@@ -151,7 +155,7 @@ class DeltaMembrane {
  public:
   DeltaMembrane(const Surface& surface, int cells, bool has_walls, double ratio)
       : surface_(surface),
-        fluid_(grid_of(cells, has_walls), parameters(surface, grid_of(cells, has_walls), ratio)),
+        fluid_(fluid_in_box(grid_of(cells, has_walls), parameters(surface, grid_of(cells, has_walls), ratio))),
         transfer_(fluid_.grid()) {
     transfer_.update(surface.positions());
   }
