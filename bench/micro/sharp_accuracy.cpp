@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: The Vesiflow authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Velocity of a membrane that pushes the fluid with a given force, without thickness and by the delta function: errors against the grid.
-//   OMP_NUM_THREADS=1 build/release/bench/sharp_accuracy [--cells N...] [--reference N...] [--aspect A] [--ratio L...] [--degree N...] [--walls]
-// A sphere or a spheroid of the volume of the unit sphere, off the points of the grid, in a box 6 wide, quasi-static. The reference is the sharp
-// membrane on one finer grid, or extrapolated from two with an error of second order. Tabulated by `validation/run.py sharp_modes`.
+// Velocity of a membrane that pushes the fluid with a given force, without thickness and by the delta function: errors
+// against the grid, as JSON.
+//   OMP_NUM_THREADS=1 build/release/bench/sharp_accuracy [--cells N...] [--reference N...] [--aspect A] [--ratio L...]
+//     [--degree N...] [--walls]
+// A sphere or a spheroid of the volume of the unit sphere, off the points of the grid, in a box 6 wide, quasi-static.
+// The reference is the sharp membrane on one finer grid, or extrapolated from two with an error of second order.
+// Tabulated by `validation/run.py sharp_modes` in docs/studies/sharp_membranes.md.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -44,7 +47,8 @@ VectorField body(const vesicle::SphereGrid& grid, double aspect) {
   return vesicle::spheroid(grid, aspect, placement);
 }
 
-// On the sphere of the parameters: a harmonic of that degree about an axis and one of order `degree` around another, of mean square 1 each.
+// On the sphere of the parameters: a harmonic of that degree about an axis and one of order `degree` around another, of
+// mean square 1 each.
 ScalarField harmonic(const vesicle::SphereGrid& grid, int degree) {
   const Vector3 pole = Vector3(0.5, -0.3, 0.8).normalized(), e1 = Vector3(0.9, 0.2, -0.4).normalized();
   const Vector3 e2 = Vector3(0.3, -1.0, 0.2).cross(e1).normalized();
@@ -214,9 +218,11 @@ int main(int argc, char** argv) {
   int latitudes = 48, delta_cells = 48;
   double aspect = 1.0;
   bool has_walls = false;
-  CLI::App app{"Velocity of a membrane that pushes the fluid with a given force: errors against a finer grid, as JSON."};
+  CLI::App app{
+      "Velocity of a membrane that pushes the fluid with a given force: errors against a finer grid, as JSON."};
   app.add_option("--cells", sizes, "cells along the box of width 6")->check(CLI::Range(16, 256))->capture_default_str();
-  app.add_option("--reference", references, "cells of the reference: one grid, or two to extrapolate from, the coarser first")
+  app.add_option("--reference", references,
+                 "cells of the reference: one grid, or two to extrapolate from, the coarser first")
       ->expected(1, 2)
       ->check(CLI::Range(16, 384))
       ->capture_default_str();

@@ -3,8 +3,8 @@
 """A vesicle that is carried across the grid by more than a hundred cells, beside one that stays: the same flow, seen from a moving frame.
 
 The flow is (z, 0, 0) and the box 6 wide, h = R/5.3. Around z = 0 the vesicle stays; around z = 1, with the walls at z = -2 and 4, all moves by 1
-in a unit of time, 5.3 spacings. Reduced volume 0.9, from near the steady angle, dt = 1/24 to t = 20; sharp membranes without inertia, delta functions at
-Re = 1e-3. What the grid does is seen in the second half of the run.
+in a unit of time, 5.3 spacings. Reduced volume 0.9, from near the steady angle, dt = 1/24 to t = 20; sharp membranes without inertia, delta functions
+at Re = 1e-3. What the grid does is seen in the second half of the run.
 """
 
 import numpy as np

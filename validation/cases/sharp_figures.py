@@ -66,11 +66,12 @@ def compute(context):
             states = [values["steady"].setdefault(treads[r, v, n].name, shear.steady(folders[treads[r, v, n].name])) for n in CELLS]
             off = states[0]["angle_deg"] - states[1]["angle_deg"]
             part = states[0]["frequency"] / states[1]["frequency"] - 1
-            rows.append([r, v, *(s["angle_deg"] for s in states), f"{off:+.3f}", f"{states[1]['drift_deg']:+.2f}", *(s["frequency"] for s in states),
-                         f"{100 * part:+.2f} %", met(abs(off) <= max(ANGLE, PART * abs(states[1]["angle_deg"])) and abs(part) <= PART)])
+            rows.append([r, v, *(s["angle_deg"] for s in states), f"{off:+.3f}", f"{states[1]['drift_deg']:+.2f}",
+                         *(s["frequency"] for s in states), f"{100 * part:+.2f} %",
+                         met(abs(off) <= max(ANGLE, PART * abs(states[1]["angle_deg"])) and abs(part) <= PART)])
     names = [f"R/{n / 6:.3g}" for n in CELLS]
-    eight = table("Figure 8: the last unit of time before t = 12", ["viscosity ratio", "reduced volume", *(f"angle, {n}" for n in names), "difference",
-                  "change in that time", *(f"frequency, {n}" for n in names), "difference", "asked for"], rows)
+    eight = table("Figure 8: the last unit of time before t = 12", ["viscosity ratio", "reduced volume", *(f"angle, {n}" for n in names),
+                  "difference", "change in that time", *(f"frequency, {n}" for n in names), "difference", "asked for"], rows)
     rows = []
     for v in fig9.VOLUMES:
         crossings = [values["crossings"].setdefault(tumbles[v, n].name, shear.half_turns(outputs.course(folders[tumbles[v, n].name]))) for n in CELLS]
@@ -93,8 +94,8 @@ def compute(context):
         off = angles[0][-1] - angles[1][-1]
         good = abs(turns[0] / turns[1] - 1) <= PART if crossings[0] and crossings[1] else abs(off) <= max(ANGLE, PART * abs(angles[1][-1]))
         completed = all(end["status"] == "completed" for end in ends)
-        rows.append([re, NUMBERS[re][0], *(f"{end['status']}, {end['time']:.3g}" for end in ends), *turns, *(float(a[-1]) for a in angles), f"{off:+.3f}",
-                     f"{apart:.2f}", met(good and completed)])
+        rows.append([re, NUMBERS[re][0], *(f"{end['status']}, {end['time']:.3g}" for end in ends), *turns, *(float(a[-1]) for a in angles),
+                     f"{off:+.3f}", f"{apart:.2f}", met(good and completed)])
     ten = table("Figures 10 and 11: ratio 20, reduced volume 0.9, with inertia", ["Re", "dt", *(f"ended at t, {n}" for n in names),
                 *(f"first along the flow at t, {n}" for n in names), *(f"angle at the end, {n}" for n in names), "difference", "largest of the run",
                 "asked for"], rows)

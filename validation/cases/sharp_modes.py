@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Velocity of a resting membrane under a given force, sharp and delta, against the grid: bench/micro/sharp_accuracy.cpp.
 
-A sphere and a prolate of axes 1:1:2 with the volume of the unit sphere, askew in a box 6 wide. Errors are root mean squares over the membrane, relative
-to the velocity; the limit is that of the sharp membrane on 96^3 and 128^3 cells, extrapolated with second order; on 64^3 and 96^3 at ratios 0.2 and 20 and between walls.
+A sphere and a prolate of axes 1:1:2 with the volume of the unit sphere, askew in a box 6 wide. Errors are root mean squares over the membrane,
+relative to the velocity; the limit is that of the sharp membrane on 96^3 and 128^3 cells, extrapolated with second order; on 64^3 and 96^3 at
+ratios 0.2 and 20 and between walls.
 Forces: a harmonic of degree n of the parameters times the normal, or as a tension (grad s - 2 H s n).
 """
 

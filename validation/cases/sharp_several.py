@@ -44,11 +44,12 @@ def compute(context):
     states, rows = {}, []
     for (m, r), run in runs.items():
         s = states[run.name] = state(folders[run.name])
-        rows.append([r, m, s["status"], s["time"], f"{s['least_distance']:.3f} at {s['least_at']:g}", f"{100 * s['near']:.0f} %", f"{s['divergence']:.1e}",
-                     f"{s['velocity_noise']:.1e}", f"{s['local_area_error']:.1e}", f"{s['area_error']:.0e}", f"{s['volume_error']:.0e}"])
+        rows.append([r, m, s["status"], s["time"], f"{s['least_distance']:.3f} at {s['least_at']:g}", f"{100 * s['near']:.0f} %",
+                     f"{s['divergence']:.1e}", f"{s['velocity_noise']:.1e}",
+                     f"{s['local_area_error']:.1e}", f"{s['area_error']:.0e}", f"{s['volume_error']:.0e}"])
     return {"states": states, "tables": [table("", [
-        "ratio", "", "ended", "t", "least distance between markers, at t", "rows with less than one spacing", "largest surface divergence after t = 1",
-        "largest noise of the velocity", "largest local area error", "area error", "volume error"], rows)]}
+        "ratio", "", "ended", "t", "least distance between markers, at t", "rows with less than one spacing",
+        "largest surface divergence after t = 1", "largest noise of the velocity", "largest local area error", "area error", "volume error"], rows)]}
 
 
 def draw(context, values, path):

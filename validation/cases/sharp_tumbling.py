@@ -45,7 +45,7 @@ def compute(context):
     for n in CELLS:
         s = states[n]
         halves = s["half_turns"]
-        later = f"{len(halves)}: {min(halves[2:]):.3f} to {max(halves[2:]):.3f}, the last {halves[-1]:.3f}" if len(halves) > 2 else ""
+        later = f"{len(halves)}: {min(halves):.3f} to {max(halves):.3f}, the last {halves[-1]:.3f}" if len(halves) > 2 else ""
         rows.append([f"R/{n / 6:.3g}", s["status"], s["time"], ", ".join(f"{h:.3f}" for h in halves[:2]), later,
                      f"{mean[n]:.4f}", f"{100 * (mean[n] / limit - 1):+.2f} %",
                      f"{s['divergence']:.1e}", f"{s['velocity_noise']:.1e}", f"{s['local_area_error']:.1e}", f"{s['area_error']:.0e}",
@@ -55,8 +55,9 @@ def compute(context):
     series = dict(zip(("time", "angle_deg", "divergence"), outputs.thinned(course["time"], course["inclination_angle_deg"],
                                                                            course["surface_divergence_max"], count=1001)))
     return {"states": {runs[key].name: value for key, value in states.items()}, "limit": limit, "series": series,
-            "tables": [table("", ["h", "ended", "t", "the first half turns", "later ones", "mean of the first", "off the limit", "largest surface divergence after t = 1",
-                                  "largest noise of the velocity", "largest local area error", "area error", "volume error"], rows)]}
+            "tables": [table("", ["h", "ended", "t", "the first half turns", "all", "mean of the first", "off the limit",
+                                  "largest surface divergence after t = 1", "largest noise of the velocity", "largest local area error", "area error",
+                                  "volume error"], rows)]}
 
 
 def draw(context, values, path):
