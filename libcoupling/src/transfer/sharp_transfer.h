@@ -32,7 +32,9 @@ class SharpTransfer {
  public:
   struct Parameters {
     int degrees = 0;         ///< degrees of forces that the grid resolves; 0: all
-    double smoothing = 1.0;  ///< in spacings
+    /// In spacings. Where theta varies, what D lacks of obeying the equations is force: the less the narrower, while points
+    /// that change sides do so more suddenly. docs/jump_conditions.md#how-wide-the-step-is.
+    double smoothing = 0.5;
     /// How much further than forces need it points of the velocity know their jumps, in spacings.
     double more_reach = 0.0;
   };
