@@ -274,6 +274,7 @@ SHARP_CONTRAST = Map(
     lambda panel, dt, ratio: ratio, lambda panel, dt, ratio, convection: number(dt) <= 1 / 12, "docs/viscosity_contrast.md")
 SHARP_STIFFNESS = dataclasses.replace(
     INTEGRATORS, name="sharp_stiffness", title="sharp membranes: time step and sigma0", panels=("no inertia",), quick_panels=None,
+    x=Axis("dt", ("1/6", "1/12", "1/24", "1/48", "1/96"), ("1/12", "1/24", "1/96")),
     keys=lambda panel, dt, sigma0: {"time.step": dt, "membrane.sigma0": sigma0, "fluid.inertia": "none"} | SHARP,
     same_problem=lambda panel, dt, sigma0: sigma0, recommended=lambda panel, dt, sigma0, convection: number(dt) <= 1 / 12,
     limits=lambda panel: [])
