@@ -30,13 +30,11 @@ SHARP = FOLLOWING | maps.SHARP | {"fluid.inertia": "none"}
 SHARP_RUNS = {
     "no inertia": (100, 20, SHARP),
     "ratio 5": (100, 20, SHARP | {"fluid.viscosity_ratio": 5}),
-    "ratio 0.2": (100, 20, SHARP | {"fluid.viscosity_ratio": 0.2}),
     "Re = 1": (100, 20, FOLLOWING | maps.SHARP | {"fluid.reynolds_number": 1}),
     "Re = 1, ratio 5": (100, 20, FOLLOWING | maps.SHARP | {"fluid.reynolds_number": 1, "fluid.viscosity_ratio": 5}),
     "reduced volume 0.7": (100, 20, maps.ROOMY | SHARP | {"vesicles.0.reduced_volume": 0.7}),
     "reduced volume 0.65": (100, 20, maps.ROOMY | SHARP | {"vesicles.0.reduced_volume": 0.65}),
     "Ca = 0.1": (100, 20, SHARP | {"membrane.capillary_number": 0.1}),
-    "at rest": (100, 20, SHARP | {"flow.type": "rest"}),
 }
 # By name: title and runs.
 ALL = {"long": ("long runs", RUNS), "sharp_long": ("sharp membranes: long runs", SHARP_RUNS)}
