@@ -11,7 +11,7 @@ usage: scripts/python.sh validation/run.py CASE... [--coarse | --paper] [--jobs 
 Each case runs its scenes one after the other with one thread each (--jobs N: N at a time), and writes validation/results/CASE.LEVEL.json and
 docs/figures/CASE.png. --coarse (default) takes minutes, --paper takes the paper's resolution. What has been run is not run again, and a run that was
 interrupted goes on from its checkpoint: results are in out/validation. --docs puts the stored tables, the finer where
-there are both, into docs/studies/paper_experiments.md and beyond_the_paper.md.
+there are both, into paper_experiments.md, beyond_the_paper.md and sharp_membranes.md of docs/studies.
 """
 
 import json
@@ -24,7 +24,7 @@ from harness.store import machine, revision, seconds
 
 RESULTS = runs.ROOT / "validation" / "results"
 FIGURES = runs.ROOT / "docs" / "figures"
-PAGES = [runs.ROOT / "docs" / "studies" / name for name in ("paper_experiments.md", "beyond_the_paper.md")]
+PAGES = [runs.ROOT / "docs" / "studies" / name for name in ("paper_experiments.md", "beyond_the_paper.md", "sharp_membranes.md")]
 
 
 class Context:

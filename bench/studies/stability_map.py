@@ -29,7 +29,7 @@ from stability import long_runs, maps, picture, verdicts  # noqa: E402
 RESULTS = ROOT / "bench" / "results" / "stability"
 FIGURES = ROOT / "docs" / "figures"
 PAGE = ROOT / "docs" / "studies" / "stability_maps.md"
-NAMES = [*maps.ALL, long_runs.NAME]
+NAMES = [*maps.ALL, *long_runs.ALL]
 LEVELS = ("quick", "full")
 
 
@@ -98,12 +98,16 @@ def stored(what, level, cells):
             "values": {"tables": of_tables}, "cells": {f"{c['panel']} | {c['x']} | {c['y']}": outputs.rounded(c, 4) for c in cells}}
 
 
-def carry_out_long(level, program, jobs):
-    wanted = long_runs.runs_of(level == "quick")
+def title_of(name):
+    return long_runs.ALL[name][0] if name in long_runs.ALL else maps.ALL[name].title
+
+
+def carry_out_long(name, level, program, jobs):
+    wanted = long_runs.runs_of(name, level == "quick")
     runs.execute_all(list(wanted.values()), program, jobs)
-    values = {name: long_runs.measures(run.folder()) for name, run in wanted.items()}
-    origin = {name: runs.provenance(run) for name, run in wanted.items()}
-    return {"map": "long", "level": level, "title": long_runs.TITLE, "command": command_of(long_runs.NAME, level), "source": "",
+    values = {each: long_runs.measures(run.folder()) for each, run in wanted.items()}
+    origin = {each: runs.provenance(run) for each, run in wanted.items()}
+    return {"map": name, "level": level, "title": title_of(name), "command": command_of(name, level), "source": "",
             "git_revision": revision(), "machine": machine(), "cpu_seconds": round(sum(run["cpu_seconds"] for run in origin.values()), 1),
             "runs": origin, "values": {"tables": [long_runs.of_table(values)]}, "cells": outputs.rounded(values, 6)}
 
@@ -137,9 +141,9 @@ def main():
     program = command_line.program(options)
     for name in command_line.chosen(parser, options.maps, NAMES, "map"):
         start, figure = time.monotonic(), FIGURES / f"stability_{name}.png"
-        runs.say(f"== {name} ({options.level}): {long_runs.TITLE if name == long_runs.NAME else maps.ALL[name].title}")
-        if name == long_runs.NAME:
-            result = carry_out_long(options.level, program, options.jobs)
+        runs.say(f"== {name} ({options.level}): {title_of(name)}")
+        if name in long_runs.ALL:
+            result = carry_out_long(name, options.level, program, options.jobs)
             draw = lambda: long_runs.draw(result["cells"], figure)  # noqa: E731
         else:
             cells = carry_out(maps.ALL[name], options.level, program, options.jobs)

@@ -10,7 +10,8 @@ draw     (context, values, path): the figure, from the values and from the files
 import importlib
 
 NAMES = ["table1", "table2_3", "fig3", "fig4_5", "fig5_scheme", "fig6", "fig7", "fig8", "fig9", "fig10_11", "fig12",
-         "grid_and_box", "critical_ratio", "tumbling_period", "deflated_shear", "sharp_treading"]
+         "grid_and_box", "critical_ratio", "tumbling_period", "deflated_shear", "sharp_treading",
+         "sharp_modes", "sharp_sinking", "sharp_tumbling", "sharp_critical", "sharp_drift", "sharp_several", "sharp_figures"]
 
 
 def load(name):

@@ -11,7 +11,6 @@ from harness.tables import table
 
 from . import maps, verdicts
 
-NAME, TITLE = "long", "long runs"
 FOLLOWING = {"time.step": "1/24", "membrane.sigma0": 2000}
 EXPLICIT = {"time.markers": "euler", "time.step": "1/192", "membrane.sigma0": 600}
 TUMBLING = maps.ROOMY | {"fluid.viscosity_ratio": 30, "time.step": "1/48", "membrane.sigma0": 2000}
@@ -27,13 +26,25 @@ RUNS = {  # name: end, quick end, keys
     "tumbling, ratio 30": (220, 20, TUMBLING),
     "at rest": (100, 20, FOLLOWING | {"flow.type": "rest"}),
 }
+SHARP = FOLLOWING | maps.SHARP | {"fluid.inertia": "none"}
+SHARP_RUNS = {
+    "no inertia": (100, 20, SHARP),
+    "ratio 5": (100, 20, SHARP | {"fluid.viscosity_ratio": 5}),
+    "Re = 1": (100, 20, FOLLOWING | maps.SHARP | {"fluid.reynolds_number": 1}),
+    "Re = 1, ratio 5": (100, 20, FOLLOWING | maps.SHARP | {"fluid.reynolds_number": 1, "fluid.viscosity_ratio": 5}),
+    "reduced volume 0.7": (100, 20, maps.ROOMY | SHARP | {"vesicles.0.reduced_volume": 0.7}),
+    "reduced volume 0.65": (100, 20, maps.ROOMY | SHARP | {"vesicles.0.reduced_volume": 0.65}),
+    "Ca = 0.1": (100, 20, SHARP | {"membrane.capillary_number": 0.1}),
+}
+# By name: title and runs.
+ALL = {"long": ("long runs", RUNS), "sharp_long": ("sharp membranes: long runs", SHARP_RUNS)}
 
 
-def runs_of(quick):
+def runs_of(of_map, quick):
     # Without walls at the ends of the flow, from which the centre would not be a stable place (docs/stability.md#long-runs).
     common = maps.SMALL | {"domain.periodic": [True, False, False], "output.diagnostics_every": 0.25, "output.checkpoint_every": 10}
     return {name: Run(name, maps.SCENE, common | keys | {"time.end": quick_end if quick else end}, store=maps.STORE)
-            for name, (end, quick_end, keys) in RUNS.items()}
+            for name, (end, quick_end, keys) in ALL[of_map][1].items()}
 
 
 def slope(time, values):

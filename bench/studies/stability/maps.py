@@ -271,6 +271,26 @@ SHARP_CONTRAST = Map(
     "sharp_contrast", "sharp membranes: viscosity ratio and time step", ("no inertia",), CONTRAST.x, CONTRAST.y, 4,
     lambda panel, dt, ratio: {"time.step": dt, "fluid.viscosity_ratio": ratio, "fluid.inertia": "none", "membrane.sigma0": 2000} | SHARP,
     lambda panel, dt, ratio: ratio, lambda panel, dt, ratio, convection: number(dt) <= 1 / 12, "docs/viscosity_contrast.md")
+SHARP_STIFFNESS = dataclasses.replace(
+    INTEGRATORS, name="sharp_stiffness", title="sharp membranes: time step and sigma0", panels=("no inertia",), quick_panels=None,
+    x=Axis("dt", ("1/6", "1/12", "1/24", "1/48", "1/96"), ("1/12", "1/24", "1/96")),
+    keys=lambda panel, dt, sigma0: {"time.step": dt, "membrane.sigma0": sigma0, "fluid.inertia": "none"} | SHARP,
+    same_problem=lambda panel, dt, sigma0: sigma0, recommended=lambda panel, dt, sigma0, convection: number(dt) <= 1 / 12,
+    limits=lambda panel: [])
+
+
+def _phases_recommended(panel, reynolds, ratio, convection):
+    dt = number(panel.split()[-1])
+    return (ratio >= 0.5 or (reynolds <= 1 and ratio >= 0.2)) and dt <= min(convection, 1 / 12) and reynolds * SPACING**2 / dt <= 40
+
+
+SHARP_PHASES = Map(
+    "sharp_phases", "sharp membranes: Reynolds number and viscosity ratio", ("dt = 1/24", "dt = 1/48"),
+    Axis("Re", (1e-3, 0.1, 1, 3, 10), (0.1, 10)), Axis("viscosity ratio", (0.05, 0.2, 0.5, 1, 2, 5, 20, 100), (0.2, 5)), 4,
+    lambda panel, reynolds, ratio: {"time.step": panel.split()[-1], "fluid.reynolds_number": reynolds, "fluid.viscosity_ratio": ratio,
+                                    "membrane.sigma0": 2000} | SHARP,
+    lambda panel, reynolds, ratio: (reynolds, ratio), _phases_recommended,
+    "docs/coupling.md: ratios from 0.5 on, or from 0.2 on to Re = 1; docs/time_integration.md, Convection")
 
 ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS, STIFF_STARTS, SHARP_SHAPES, SHARP_INERTIA,
-                                    SHARP_CONTRAST)}
+                                    SHARP_CONTRAST, SHARP_STIFFNESS, SHARP_PHASES)}
