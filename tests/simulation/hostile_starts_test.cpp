@@ -65,6 +65,8 @@ lower = [-1.6, 0, -1.6]
 upper = [1.6, 1.6, 1.6]
 cells = [64, 32, 64]
 mirror = [false, true, false]
+[coupling]
+method = "delta"
 [mesh]
 latitudes = 32
 [time]

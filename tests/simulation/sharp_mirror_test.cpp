@@ -58,6 +58,16 @@ std::string described(const Overrides& overrides) {
 // whole from its mirror image, whose points find their feet on the membrane by steps of single precision.
 constexpr double tolerance = 2e-9;
 
+/// The largest difference of u_x from its mirror image in y.
+double asymmetry(const fluid::FaceVector& velocity) {
+  const auto& u = velocity.x;
+  double most = 0.0;
+  for (int k = 0; k < u.extent(2); ++k)
+    for (int j = 0; j < u.extent(1); ++j)
+      for (int i = 0; i < u.extent(0); ++i) most = std::max(most, std::abs(u(i, j, k) - u(i, u.extent(1) - 1 - j, k)));
+  return most;
+}
+
 TEST(SharpMirror, HalfOfAShearFlowIsTheHalfOfTheWhole) {
   for (const Overrides& fluid : fluids)
     for (const char* periodic : {"domain.periodic=[false, false, false]", "domain.periodic=[true, false, false]"}) {
@@ -66,8 +76,11 @@ TEST(SharpMirror, HalfOfAShearFlowIsTheHalfOfTheWhole) {
       SceneSimulation whole(scene), half(side_of(scene, {false, true, false}));
       advance(whole, steps);
       advance(half, steps);
-      expect_same(whole, half, tolerance);
-      EXPECT_LT(mirrored::difference(whole.fluid_velocity(), half.fluid_velocity()), tolerance);
+      // 5e-8 with two phases of inertia, which change sides within a quarter of a spacing, and below 3e-10 without.
+      const double of_the_whole = asymmetry(whole.fluid().velocity());
+      EXPECT_LT(of_the_whole, 2e-7);
+      expect_same(whole, half, tolerance + 2.0 * of_the_whole);
+      EXPECT_LT(mirrored::difference(whole.fluid_velocity(), half.fluid_velocity()), tolerance + 2.0 * of_the_whole);
       EXPECT_LT(mirrored::difference(half.fluid_velocity(), fluid_velocity_of(half.scene(), half.state())), 1e-14);
     }
 }

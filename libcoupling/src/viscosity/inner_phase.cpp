@@ -24,10 +24,22 @@ constexpr int room = 4;
 /// What no field holds: ghosts are at -1.
 constexpr int nowhere = -2;
 
-/// The first place along an axis where a field of the grid holds a point.
-int place_of(int point, std::size_t axis, const fluid::Grid& grid, int extent) {
+/// Where along an axis a field of the grid holds a point, and the factor of its value: beyond a mirror plane that of its
+/// image, for the component normal to the plane with the other sign.
+struct Held {
+  int place = nowhere;
+  double factor = 1.0;
+};
+
+Held held_at(int point, std::size_t axis, std::size_t component, const fluid::Grid& grid, int extent) {
+  Held held;
+  if (grid.mirror[axis] && point < 0) {
+    point = component == axis ? -point : -1 - point;
+    if (component == axis) held.factor = -1.0;
+  }
   const GridPlaces places(point, static_cast<int>(axis), grid, extent);
-  return places.count > 0 ? *places.begin() : nowhere;
+  if (places.count > 0) held.place = *places.begin();
+  return held;
 }
 
 std::size_t storage(const fluid::FaceVector& field) {
@@ -118,17 +130,19 @@ void InnerPhase::copy_from(const fluid::FaceVector& whole, Box& box) const {
   for (std::size_t c = 0; c < 3; ++c) {
     const fluid::View target = targets[c];
     const fluid::ConstView source = sources[c];
-    const auto place = [&](std::size_t axis, int point) {
-      return place_of(box.first[axis] + point, axis, grid_, source.extent[axis]);
+    const auto held = [&](std::size_t axis, int point) {
+      return held_at(box.first[axis] + point, axis, c, grid_, source.extent[axis]);
     };
     for (int k = -1; k <= target.extent[2]; ++k) {
-      const int z = place(2, k);
+      const Held z = held(2, k);
       for (int j = -1; j <= target.extent[1]; ++j) {
-        const int y = place(1, j);
+        const Held y = held(1, j);
         double* row = target.row(j, k);
         for (int i = -1; i <= target.extent[0]; ++i) {
-          const int x = place(0, i);
-          row[i] = std::min({x, y, z}) == nowhere ? 0.0 : source(x, y, z);
+          const Held x = held(0, i);
+          row[i] = std::min({x.place, y.place, z.place}) == nowhere
+                       ? 0.0
+                       : x.factor * y.factor * z.factor * source(x.place, y.place, z.place);
         }
       }
     }
@@ -164,10 +178,15 @@ void InnerPhase::keep(std::size_t time, const SharpTransfer& body, const fluid::
     for (const GridBand::Point& point : band.points()) {
       if (point.distance() == GridBand::far || band.is_inside(point.at)) continue;
       std::array<int, 3> place{};
-      for (const std::size_t axis : axes) place[axis] = place_of(point.index[axis], axis, grid_, source.extent[axis]);
+      double factor = 1.0;
+      for (const std::size_t axis : axes) {
+        const Held held = held_at(point.index[axis], axis, static_cast<std::size_t>(c), grid_, source.extent[axis]);
+        place[axis] = held.place;
+        factor *= held.factor;
+      }
       if (std::ranges::find(place, nowhere) != place.end()) continue;
       target(point.index[0] - box.first[0], point.index[1] - box.first[1], point.index[2] - box.first[2]) =
-          source(place[0], place[1], place[2]) - band.jump(point.at);
+          factor * source(place[0], place[1], place[2]) - band.jump(point.at);
     }
   }
   convect(box);
