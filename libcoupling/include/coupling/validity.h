@@ -42,6 +42,9 @@ constexpr double recommended_turn_per_step = 1.0 / 12.0;  ///< of a marker, with
 
 /// Longest step over Ca: a shape far from rest relaxes at a rate of about 1/Ca (S).
 constexpr double bending_step = 0.5;
+/// The same of sharp membranes: at Ca = 0.1 noise grows slowly with a step of Ca/2.4 (a run to t = 100 stops at 67), and
+/// not with Ca/4.8 (docs/studies/stability_maps.md#long-runs-of-sharp-membranes).
+constexpr double bending_step_of_sharp = 0.2;
 
 constexpr double largest_reynolds_number = 10.0;  ///< that has been compared with anything (V)
 
@@ -98,7 +101,8 @@ constexpr long settling_steps = 10;  ///< of a start, in which velocities jump
 
 }  // namespace validity
 
-/// The longest step that follows bending: validity::bending_step times the smallest Ca r^3 of the vesicles.
+/// The longest step that follows bending: validity::bending_step, or bending_step_of_sharp, times the smallest Ca r^3 of
+/// the vesicles.
 VESIFLOW_COUPLING_EXPORT double stable_bending_step(const SimulationParameters& parameters);
 
 /// The largest g = dt sigma0/(4 h) at which shape following is quiet where inertia counts (docs/time_integration.md,

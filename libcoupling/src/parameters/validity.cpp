@@ -14,7 +14,8 @@ double stable_bending_step(const SimulationParameters& parameters) {
   double stiffest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < parameters.vesicles.size(); ++i)
     stiffest = std::min(stiffest, own_capillary_number(parameters, i));
-  return validity::bending_step * stiffest;
+  const bool is_sharp = parameters.coupling.method == CouplingMethod::sharp;
+  return (is_sharp ? validity::bending_step_of_sharp : validity::bending_step) * stiffest;
 }
 
 double quiet_tension_number(const SimulationParameters& parameters) {
