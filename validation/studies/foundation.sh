@@ -13,7 +13,7 @@ out=out/validation
 
 case_of() { # case_of NAME APP SCENE OPTION...
   echo "== $1"
-  "$apps/$2" "scenes/$3.toml" --out "$out/$1" "${@:4}"
+  "$apps/$2" "scenes/$3.toml" --out "$out/$1" --set coupling.method=delta "${@:4}"
 }
 n32=(--set domain.cells=32 --set mesh.latitudes=16 --set time.step=1/192 --set membrane.sigma0=300)
 case_of tank_treading shear_flow paper/tank_treading_64

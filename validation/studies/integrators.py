@@ -19,7 +19,7 @@ from harness.outputs import rounded  # noqa: E402
 from harness.runs import ROOT  # noqa: E402
 
 TREADING, TUMBLING = "scenes/paper/tank_treading_64.toml", "scenes/tumbling.toml"
-FOLLOW = {"time.markers": "shape_following"}
+FOLLOW = {"coupling.method": "delta", "time.markers": "shape_following"}
 
 
 def case(name, scene, step, sigma0, end, every=0.25, steps=None, **more):

@@ -20,7 +20,7 @@ case_of() { # case_of GROUP CELLS CORRECTED SCENE [more options]
   local name="$1_$3_$2" cells=$2 corrected=$3 scene=$4
   shift 4
   if grep -qs '"status": "completed"' "$out/$name/summary.json"; then return; fi
-  timeout 900 "$build/apps/shear_flow" "scenes/$scene.toml" --out "$out/$name" --threads 1 --quiet \
+  timeout 900 "$build/apps/shear_flow" "scenes/$scene.toml" --out "$out/$name" --threads 1 --quiet --set coupling.method=delta \
     --set "coupling.thickness_correction=$corrected" --set "domain.cells=[$cells,$((cells / 2)),$cells]" \
     --set "mesh.latitudes=$((cells / 2))" --set mesh.normal_degrees=12 --set 'domain.lower=[-6,0,-6]' \
     --set 'domain.mirror=[false,true,false]' --set time.markers=shape_following --set output.vesicle_every=0 \

@@ -15,7 +15,7 @@ out=${OUT:-out/viscosity_ratio}
 case_of() { # case_of RATIO END TREATMENT STEPS_PER_UNIT; inertia = none is named "none"
   local name="ratio$1_$3_$4" treatment=(--set "fluid.viscous_treatment=$3")
   if [[ $3 == none ]]; then treatment=(--set fluid.inertia=none); fi
-  "$apps/shear_flow" scenes/tumbling.toml --out "$out/$name" --threads 1 --quiet --set "fluid.viscosity_ratio=$1" \
+  "$apps/shear_flow" scenes/tumbling.toml --out "$out/$name" --threads 1 --quiet --set coupling.method=delta --set "fluid.viscosity_ratio=$1" \
     --set 'domain.lower=[-3,-3,-3]' --set 'domain.upper=[3,3,3]' --set domain.cells=32 --set membrane.sigma0=570 \
     --set "time.end=$2" --set "time.step=1/$4" --set output.vesicle_every=0 --set output.checkpoint_every=0 \
     --set output.diagnostics_every=0.02 "${treatment[@]}" || [ $? -eq 3 ] # a run that blows up is a result

@@ -80,8 +80,8 @@ SHORT = {"coupling.method": "{}", "mesh.latitudes": "{} lat", "time.step": "dt {
 
 USUAL = {"time.markers": "shape_following", "fluid.viscous_treatment": "extrapolated", "coupling.kernel": "smoothed4",
          "coupling.method": "delta"}
-CORRECTED, PLAIN = {"coupling.thickness_correction": True}, {"coupling.thickness_correction": False}
-SHARP = {"coupling.method": "sharp"} | PLAIN
+CORRECTED, PLAIN = {"coupling.thickness_correction": True}, {"coupling.thickness_correction": False, "coupling.method": "delta"}
+SHARP = PLAIN | {"coupling.method": "sharp"}
 SHARP_SLOW = SHARP | {"fluid.inertia": "none"}
 
 
@@ -115,7 +115,7 @@ def explicit_tension(markers, cells, width, g=4.0, **keys):
 
 
 def family(keys):
-    if "coupling.method" in keys:
+    if keys.get("coupling.method") == "sharp":
         return "sharp, no inertia" if "fluid.inertia" in keys else "sharp"
     return "corrected" if keys is CORRECTED else "plain"
 
