@@ -38,10 +38,11 @@ struct VesicleState {
   vesicle::VectorField interface_velocity = {};
   vesicle::VectorField previous_interface_velocity = {};  ///< the same one step ago; empty if there was none
 
-  /// Where there is inertia too: mu u inside, continued out of the membrane, in a box of the grid around it, and the same one step
-  /// ago. The first point and the number of points along each axis, then the components as fields of such a grid hold them, with
-  /// their ghosts. Else, and before the first step, empty.
-  std::vector<double> inner_velocity = {}, previous_inner_velocity = {};
+  /// Where there is inertia too: mu u inside, continued out of the membrane, in a box of the grid around it. The first point and the
+  /// number of points along each axis, then the components as fields of such a grid hold them, with their ghosts. Else, and before
+  /// the first step, empty.
+  std::vector<double> inner_velocity = {};
+  std::vector<double> previous_inner_velocity = {};  ///< the same one step ago
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {

@@ -43,7 +43,7 @@ constexpr double recommended_turn_per_step = 1.0 / 12.0;  ///< of a marker, with
 /// Longest step over Ca: a shape far from rest relaxes at a rate of about 1/Ca (S).
 constexpr double bending_step = 0.5;
 /// The same of sharp membranes: at Ca = 0.1 noise grows slowly with a step of Ca/2.4 (a run to t = 100 stops at 67), and
-/// not with Ca/4.8 (docs/studies/stability_maps.md#long-runs-of-sharp-membranes).
+/// not with Ca/4.8 (docs/studies/stability_maps.md).
 constexpr double bending_step_of_sharp = 0.2;
 
 constexpr double largest_reynolds_number = 10.0;  ///< that has been compared with anything (V)

@@ -121,10 +121,10 @@ void check_accuracy(const Scene& scene) {
                     "fluid.inertia = \"none\"; leave method.accuracy out, and compare two grids",
                     key, scene.fluid.reynolds_number, largest_reynolds_number / (radius * radius)));
   if (scene.method.accuracy == Accuracy::per_mille && !is_slow(scene))
-    throw ParameterError(
-        fmt::format("{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}: above, the error of "
-                    "the step is larger (docs/performance.md#presets); take \"1e-2\", or compare two grids and two steps",
-                    key, scene.fluid.reynolds_number, largest_slow_reynolds_number / (radius * radius)));
+    throw ParameterError(fmt::format(
+        "{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}: above, the error of "
+        "the step is larger (docs/performance.md#presets); take \"1e-2\", or compare two grids and two steps",
+        key, scene.fluid.reynolds_number, largest_slow_reynolds_number / (radius * radius)));
   const double ratio = scene.viscosity_range().least;
   if (re > 0.0 && ratio < least_ratio_with_inertia)
     throw ParameterError(

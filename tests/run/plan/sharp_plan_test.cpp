@@ -200,7 +200,8 @@ TEST(SharpPlan, TakesWithinATenthAsMuchMoreMemoryAsWasMeasured) {
 
 TEST(SharpPlan, WarnsOfStepsThatAreLongForStiffBending) {
   PlanText(sharp({"membrane.capillary_number=0.1", "time.step=1/24", "membrane.g=2"})).has("take time.step <= 0.02");
-  PlanText(sharp({"membrane.capillary_number=0.1", "time.step=1/60", "membrane.g=2"})).has_not("take time.step <= 0.02");
+  PlanText(sharp({"membrane.capillary_number=0.1", "time.step=1/60", "membrane.g=2"}))
+      .has_not("take time.step <= 0.02");
   PlanText(delta({"membrane.capillary_number=0.1", "time.step=1/24", "membrane.g=2"})).has_not("take time.step <=");
 }
 

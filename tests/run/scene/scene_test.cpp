@@ -97,8 +97,8 @@ TEST(Scene, AccuracyTakesSharpMembranesWhereTheCorrectionOfTheThicknessDoesNotRe
   }
   // The convection of a fast flow asks for shorter steps than the flow's rate.
   const Scene fast = parse(sphere, {accurate, "fluid.reynolds_number=10", "domain.cells=192"});
-  EXPECT_LE(fast.time.step, coupling::stable_convection_step(parse(sphere, {accurate, "fluid.reynolds_number=10"}),
-                                                             flow_of(fast)));
+  EXPECT_LE(fast.time.step,
+            coupling::stable_convection_step(parse(sphere, {accurate, "fluid.reynolds_number=10"}), flow_of(fast)));
   expect_parts(describe_plan(parse(sphere, {accurate, "fluid.viscosity_ratio=5", "coupling.method=delta",
                                             "coupling.thickness_correction=false"}),
                              1),
