@@ -4,7 +4,7 @@
 // Velocity of a membrane that pushes the fluid with a given force, without thickness and by the delta function: errors
 // against the grid, as JSON.
 //   OMP_NUM_THREADS=1 build/release/bench/sharp_accuracy [--cells N...] [--reference N...] [--aspect A] [--ratio L...]
-//     [--degree N...] [--walls]
+//     [--degree N...] [--walls [--wall-gap D]]
 // A sphere or a spheroid of the volume of the unit sphere, off the points of the grid, in a box 6 wide, quasi-static.
 // The reference is the sharp membrane on one finer grid, or extrapolated from two with an error of second order.
 // Tabulated by `validation/run.py sharp_modes` in docs/studies/sharp_membranes.md.
@@ -40,10 +40,10 @@ const Vector3 centre(0.013, -0.021, 0.037);
 constexpr double half_width = 3.0;
 
 // The long axis lies askew in the grid.
-VectorField body(const vesicle::SphereGrid& grid, double aspect) {
+VectorField body(const vesicle::SphereGrid& grid, double aspect, const Vector3& at) {
   vesicle::Placement placement;
   placement.rotation = Eigen::AngleAxis<double>(0.6, Vector3(1.0, 2.0, 0.5).normalized()).toRotationMatrix();
-  placement.centre = centre;
+  placement.centre = at;
   return vesicle::spheroid(grid, aspect, placement);
 }
 
@@ -236,11 +236,17 @@ int main(int argc, char** argv) {
   app.add_option("--degree", degrees, "degrees of the forces")->check(CLI::Range(2, 40))->capture_default_str();
   app.add_option("--delta-cells", delta_cells, "most cells of the delta function at ratios other than 1")
       ->capture_default_str();
-  app.add_flag("--walls", has_walls, "at z = -3 and 3; else all is periodic");
+  CLI::Option* walls = app.add_flag("--walls", has_walls, "at z = -3 and 3; else all is periodic");
+  double gap = 0.0;
+  CLI::Option* near = app.add_option("--wall-gap", gap, "from a sphere to the lower wall; else it is in the middle")
+                          ->check(CLI::Range(0.01, 2.0))
+                          ->needs(walls);
   CLI11_PARSE(app, argc, argv);
 
   Surface surface(latitudes);
-  surface.update(body(surface.grid(), aspect), vesicle::GeometryDetail::curvature);
+  Vector3 at = centre;
+  if (near->count() > 0) at[2] = gap + 1.0 - half_width;
+  surface.update(body(surface.grid(), aspect, at), vesicle::GeometryDetail::curvature);
   const std::vector<Mode> all = modes(surface, degrees);
   const auto size = [&](const VectorField& field) {
     return std::sqrt((field.square().rowwise().sum() * surface.area_weight()).sum());

@@ -19,11 +19,12 @@ namespace {
 namespace validity = coupling::validity;
 using coupling::CouplingMethod;
 
-double cells_per_radius(const Scene& scene) {
-  double least = 1e300;
-  for (const coupling::VesicleParameters& vesicle : scene.vesicles)
-    least = std::min(least, vesicle.radius / scene.spacing());
-  return least;
+// Of the smallest vesicle.
+bool has_cells_per_radius(const Scene& scene, double least) {
+  constexpr double round_off = 1e-9;
+  return std::ranges::all_of(scene.vesicles, [&](const coupling::VesicleParameters& vesicle) {
+    return vesicle.radius >= least * scene.spacing() * (1.0 - round_off);
+  });
 }
 
 double least_reduced_volume(const Scene& scene) {
@@ -60,11 +61,10 @@ std::string why_delta(const Scene& scene) {
   if (has_walls && coupling::wall_clearance(scene.coupling.kernel) < validity::sharp_wall_clearance)
     return fmt::format("coupling.kernel = \"{}\" lets membranes come nearer to walls than sharp ones may",
                        coupling::name(scene.coupling.kernel));
-  if (cells_per_radius(scene) < validity::fewest_cells_per_radius_of_sharp * (1.0 - 1e-9))
+  if (!has_cells_per_radius(scene, validity::fewest_cells_per_radius_of_sharp))
     return fmt::format("fewer than {:g} cells per radius are too few for sharp membranes",
                        validity::fewest_cells_per_radius_of_sharp);
-  constexpr double round_off = 1e-9;
-  if (cells_per_radius(scene) < validity::fewest_cells_per_radius_of_slender_sharp * (1.0 - round_off) &&
+  if (!has_cells_per_radius(scene, validity::fewest_cells_per_radius_of_slender_sharp) &&
       least_reduced_volume(scene) < validity::least_reduced_volume_of_coarse_sharp)
     return fmt::format(
         "with fewer than {:g} cells per radius, tips and rims of sharp membranes of reduced volumes below {:g} are "
