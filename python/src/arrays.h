@@ -22,7 +22,8 @@ using Columns = py::array_t<double, py::array::f_style | py::array::forcecast>;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// An array over memory of `owner`, which lives as long as the array does. It can only be read: what it shows is the library's.
-inline py::array read_only_view(const double* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
+inline py::array read_only_view(const double* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+                                py::handle owner) {
   py::array view(py::dtype::of<double>(), std::move(shape), std::move(strides), data, owner);
   py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return view;

@@ -43,7 +43,8 @@ class BorrowedSurface {
 
  private:
   const vesicle::Surface& here() const {
-    if (surface_ == nullptr) throw std::runtime_error("the surface of a force can be read while the force is called only");
+    if (surface_ == nullptr)
+      throw std::runtime_error("the surface of a force can be read while the force is called only");
     return *surface_;
   }
   const vesicle::Surface* surface_;
@@ -66,11 +67,11 @@ coupling::MembraneForce membrane_force(py::function function) {
       for (int axis = 0; axis < 3; ++axis) force.col(axis) += values.data()[axis];
       return;
     }
-    const auto added = vectors_of(values, "a force on a membrane");
-    if (added.rows() != force.rows())
-      throw std::invalid_argument("a force on a membrane has the shape " + shape_of(values) + "; it must be (" +
-                                  std::to_string(force.rows()) + ", 3)");
-    force += added;
+    // No std::invalid_argument, which inside a step is a matter of the state.
+    if (values.ndim() != 2 || values.shape(0) != force.rows() || values.shape(1) != 3)
+      throw py::value_error("a force on a membrane has the shape " + shape_of(values) + "; it must be (" +
+                            std::to_string(force.rows()) + ", 3) or (3,)");
+    force += vectors_of(values, "a force on a membrane");
   };
 }
 
@@ -150,14 +151,17 @@ void bind_flows(py::module_& m) {
     return coupling::oscillating_shear_flow(rate, angular_frequency, p.domain);
   });
   m.def("extension_flow", [](const SimulationParameters& p, double rate, bool uniaxial) {
-    return coupling::extension_flow(rate, uniaxial ? coupling::Extension::uniaxial : coupling::Extension::planar, p.domain);
+    return coupling::extension_flow(rate, uniaxial ? coupling::Extension::uniaxial : coupling::Extension::planar,
+                                    p.domain);
   });
   m.def("plane_poiseuille_flow", [](const SimulationParameters& p, double peak_velocity) {
     return coupling::plane_poiseuille_flow(peak_velocity, p.domain);
   });
-  m.def("duct_flow", [](const SimulationParameters& p, double peak_velocity) { return coupling::duct_flow(peak_velocity, p.domain); });
-  m.def("custom_flow", [](py::function velocity, bool unsteady, const std::array<bool, 3>& may_be_periodic, double driving_force,
-                          double greatest_gradient) {
+  m.def("duct_flow", [](const SimulationParameters& p, double peak_velocity) {
+    return coupling::duct_flow(peak_velocity, p.domain);
+  });
+  m.def("custom_flow", [](py::function velocity, bool unsteady, const std::array<bool, 3>& may_be_periodic,
+                          double driving_force, double greatest_gradient) {
     Flow flow = coupling::custom_flow(VectorCallback(std::move(velocity), "a flow"),
                                       unsteady ? fluid::WallMotion::unsteady : fluid::WallMotion::steady);
     flow.may_be_periodic = may_be_periodic;
@@ -186,19 +190,20 @@ void bind_simulation(py::module_& m) {
       .def("set_time_step", &Simulation::set_time_step)
       .def("parameters", [](const Simulation& simulation) { return dict_of(simulation.parameters()); })
       .def("flow_description", [](const Simulation& simulation) { return simulation.flow().description; })
-      .def("flow_velocity",
-           [](const Simulation& simulation, const std::array<double, 3>& x, double time) {
-             return simulation.flow().velocity(x, time);
-           })
-      .def("add_force", [](Simulation& simulation, py::function force) { simulation.add_force(membrane_force(std::move(force))); })
+      .def("flow_velocity", [](const Simulation& simulation, const std::array<double, 3>& x,
+                               double time) { return simulation.flow().velocity(x, time); })
+      .def("add_force",
+           [](Simulation& simulation, py::function force) { simulation.add_force(membrane_force(std::move(force))); })
       .def("set_fluid_force",
            [](Simulation& simulation, const py::object& force) {
-             simulation.set_fluid_force(force.is_none() ? coupling::FluidForce()
-                                                        : VectorCallback(force.cast<py::function>(), "a force on the fluid"));
+             simulation.set_fluid_force(force.is_none()
+                                            ? coupling::FluidForce()
+                                            : VectorCallback(force.cast<py::function>(), "a force on the fluid"));
            })
       .def("vesicle_count", &Simulation::vesicle_count)
       .def("membrane_array", &membrane_array)
-      .def("latitudes", [](Simulation& simulation, std::size_t i) { return simulation.membrane(i).surface().grid().latitudes(); })
+      .def("latitudes",
+           [](Simulation& simulation, std::size_t i) { return simulation.membrane(i).surface().grid().latitudes(); })
       .def("measure", &measured)
       .def("nearest_distances", &Simulation::nearest_distances)
       .def("max_divergence", &Simulation::max_divergence)
@@ -207,7 +212,8 @@ void bind_simulation(py::module_& m) {
       .def("rejected_steps", &Simulation::rejected_steps)
       .def("start_parts", &Simulation::start_parts)
       .def("velocity", [](py::object self) { return read_only_view(self.cast<Simulation&>().fluid_velocity(), self); })
-      .def("pressure", [](py::object self) { return read_only_view(self.cast<Simulation&>().fluid().pressure().points(), self); })
+      .def("pressure",
+           [](py::object self) { return read_only_view(self.cast<Simulation&>().fluid().pressure().points(), self); })
       .def("viscosity",
            [](py::object self) -> py::object {
              const auto* field = self.cast<Simulation&>().viscosity();
@@ -217,7 +223,9 @@ void bind_simulation(py::module_& m) {
       .def("phases", [](const Simulation& simulation) {
         py::dict seconds;
         const coupling::Phases phases = simulation.phases();
-        coupling::visit_phases(phases, [&seconds](const char* name, const fluid::PhaseAccount& account) { seconds[name] = account.seconds; });
+        coupling::visit_phases(phases, [&seconds](const char* name, const fluid::PhaseAccount& account) {
+          seconds[name] = account.seconds;
+        });
         return seconds;
       });
 }

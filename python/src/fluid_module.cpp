@@ -48,7 +48,8 @@ BoundaryVelocity boundary_of(const py::object& function) {
 }
 
 void copy_to(const py::sequence& components, FaceVector& field, const char* name) {
-  if (py::len(components) != 3) throw std::invalid_argument(std::string(name) + " must be three arrays, of the components x, y and z");
+  if (py::len(components) != 3)
+    throw std::invalid_argument(std::string(name) + " must be three arrays, of the components x, y and z");
   const auto points = field.points();
   for (std::size_t axis = 0; axis < 3; ++axis) python::copy_to(components[axis].cast<Columns>(), points[axis], name);
 }
@@ -57,7 +58,8 @@ py::array copy_of(const ConstView& points) {
   Columns copy({points.extent[0], points.extent[1], points.extent[2]});
   double* to = copy.mutable_data();
   for (int k = 0; k < points.extent[2]; ++k)
-    for (int j = 0; j < points.extent[1]; ++j, to += points.extent[0]) std::copy_n(points.row(j, k), points.extent[0], to);
+    for (int j = 0; j < points.extent[1]; ++j, to += points.extent[0])
+      std::copy_n(points.row(j, k), points.extent[0], to);
   return copy;
 }
 
@@ -97,10 +99,11 @@ void bind_grid(py::module_& m) {
 
 class ScalarSolver {
  public:
-  ScalarSolver(const Grid& grid, const std::string& boundary, double alpha, const py::object& mu, const std::string& solver)
+  ScalarSolver(const Grid& grid, const std::string& boundary, double alpha, const py::object& mu,
+               const std::string& solver)
       : problem_(grid, Centring::cell,
-                 chosen<BoundaryCondition>(boundary, std::array<const char*, 2>{"dirichlet", "neumann"}, "boundary"), alpha,
-                 viscosity_of(mu, grid)),
+                 chosen<BoundaryCondition>(boundary, std::array<const char*, 2>{"dirichlet", "neumann"}, "boundary"),
+                 alpha, viscosity_of(mu, grid)),
         solver_(make_elliptic_solver(problem_, options_of(solver))) {}
 
   py::tuple solve(const Columns& rhs) {
@@ -126,7 +129,8 @@ class ScalarSolver {
 
 class Stokes {
  public:
-  Stokes(const Grid& grid, const py::object& viscosity, const py::object& boundary, double tolerance, int max_iterations)
+  Stokes(const Grid& grid, const py::object& viscosity, const py::object& boundary, double tolerance,
+         int max_iterations)
       : walls_(grid, boundary_of(boundary)), solver_(grid, {tolerance, max_iterations}) {
     solver_.update(viscosity_of(viscosity, grid));
   }
@@ -153,8 +157,8 @@ class Stokes {
   StokesSolver solver_;
 };
 
-NavierStokes navier_stokes(const Grid& grid, double reynolds_number, const py::object& viscosity, const std::string& inertia,
-                           const std::string& treatment, const std::string& velocity_solver,
+NavierStokes navier_stokes(const Grid& grid, double reynolds_number, const py::object& viscosity,
+                           const std::string& inertia, const std::string& treatment, const std::string& velocity_solver,
                            const std::string& pressure_solver, const py::object& boundary, bool unsteady) {
   FluidParameters parameters;
   parameters.reynolds_number = reynolds_number;

@@ -89,7 +89,8 @@ class Reader final : public coupling::ParameterVisitor {
   }
 
   void refuse(std::string_view name, const std::string& allowed) {
-    mistakes_.add(full(name) + " = " + py::repr(values_[full(name).c_str()]).cast<std::string>() + ": must be " + allowed);
+    mistakes_.add(full(name) + " = " + py::repr(values_[full(name).c_str()]).cast<std::string>() + ": must be " +
+                  allowed);
   }
 
   // Whether there is one.
@@ -118,9 +119,13 @@ class Writer final : public coupling::ParameterVisitor {
   void set_prefix(const std::string& prefix) { prefix_ = prefix; }
 
   void number(std::string_view name, double& value, const Range&) override { set(name, value); }
-  void optional_number(std::string_view name, std::optional<double>& value, const Range&) override { set_if(name, value); }
+  void optional_number(std::string_view name, std::optional<double>& value, const Range&) override {
+    set_if(name, value);
+  }
   void integer(std::string_view name, int& value, const Range&) override { set(name, value); }
-  void optional_integer(std::string_view name, std::optional<int>& value, const Range&) override { set_if(name, value); }
+  void optional_integer(std::string_view name, std::optional<int>& value, const Range&) override {
+    set_if(name, value);
+  }
   void vector(std::string_view name, std::array<double, 3>& value, const Range&) override { set(name, value); }
   void optional_vector(std::string_view name, std::optional<std::array<double, 3>>& value, const Range&) override {
     set_if(name, value);

@@ -25,13 +25,20 @@ constexpr std::array<const char*, 4> output_names{"diagnostics", "vesicle_snapsh
 
 const char* name_of(RunStatus status) {
   switch (status) {
-    case RunStatus::completed: return "completed";
-    case RunStatus::interrupted: return "interrupted";
-    case RunStatus::terminated: return "terminated";
-    case RunStatus::hung_up: return "hung up";
-    case RunStatus::user_signal_1: return "user signal 1";
-    case RunStatus::user_signal_2: return "user signal 2";
-    case RunStatus::out_of_time: return "out of time";
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::terminated:
+      return "terminated";
+    case RunStatus::hung_up:
+      return "hung up";
+    case RunStatus::user_signal_1:
+      return "user signal 1";
+    case RunStatus::user_signal_2:
+      return "user signal 2";
+    case RunStatus::out_of_time:
+      return "out of time";
   }
   return "unknown";
 }
@@ -52,12 +59,14 @@ RunOptions options_of(const py::dict& given) {
       callback.function()();
     };
   if (!given["before_output"].is_none())
-    options.before_output = [callback = Callback(given["before_output"].cast<py::function>())](const SceneSimulation&, RunOutput output) {
+    options.before_output = [callback = Callback(given["before_output"].cast<py::function>())](const SceneSimulation&,
+                                                                                               RunOutput output) {
       const py::gil_scoped_acquire lock;
       callback.function()(output_names[static_cast<std::size_t>(output)]);
     };
   for (const auto& [name, function] : given["diagnostics"].cast<py::dict>())
-    options.diagnostics.push_back({name.cast<std::string>(), [callback = Callback(function.cast<py::function>())](SceneSimulation&, std::size_t vesicle) {
+    options.diagnostics.push_back({name.cast<std::string>(), [callback = Callback(function.cast<py::function>())](
+                                                                 SceneSimulation&, std::size_t vesicle) {
                                      const py::gil_scoped_acquire lock;
                                      return callback.function()(vesicle).cast<double>();
                                    }});
@@ -68,11 +77,13 @@ void bind_scene(py::module_& m) {
   py::class_<Scene, coupling::SimulationParameters>(m, "Scene")
       .def(py::init<>())
       .def("to_toml", &to_toml)
-      .def("plan", [](const Scene& scene, int threads, const std::string& folder) { return describe_plan(scene, threads, folder); })
+      .def("plan", [](const Scene& scene, int threads,
+                      const std::string& folder) { return describe_plan(scene, threads, folder); })
       .def("memory_warning", &memory_warning);
   m.def("load_scene", [](const std::string& file, const Overrides& overrides) { return load_scene(file, overrides); });
-  m.def("parse_scene",
-        [](const std::string& text, const std::string& name, const Overrides& overrides) { return parse_scene(text, name, overrides); });
+  m.def("parse_scene", [](const std::string& text, const std::string& name, const Overrides& overrides) {
+    return parse_scene(text, name, overrides);
+  });
   m.def("read_checkpoint_scene",
         [](const std::string& file, const Overrides& overrides) { return read_checkpoint_scene(file, overrides); });
   m.def("scene_keys", [] {

@@ -85,8 +85,8 @@ void bind_harmonics(py::module_& m) {
       .def_property_readonly("latitudes", &SphereGrid::latitudes)
       .def_property_readonly("longitudes", &SphereGrid::longitudes)
       .def_property_readonly("size", &SphereGrid::size)
-      .def_property_readonly("colatitude",
-                             [](py::object self) { return read_only_view(self.cast<SphereGrid&>().colatitude(), self); })
+      .def_property_readonly(
+          "colatitude", [](py::object self) { return read_only_view(self.cast<SphereGrid&>().colatitude(), self); })
       .def_property_readonly("weight",
                              [](py::object self) { return read_only_view(self.cast<SphereGrid&>().weight(), self); });
 
@@ -129,7 +129,8 @@ void bind_harmonics(py::module_& m) {
 }
 
 // A field of a surface by the name of the function that has it.
-py::object field_of(const Surface& surface, const std::string& name, const std::function<py::object(const ScalarField&)>& scalar,
+py::object field_of(const Surface& surface, const std::string& name,
+                    const std::function<py::object(const ScalarField&)>& scalar,
                     const std::function<py::object(const VectorField&)>& vector) {
   if (name == "positions") return vector(surface.positions());
   if (name == "normal") return vector(surface.normal());
@@ -156,7 +157,8 @@ void bind_surface(py::module_& m) {
       .def("coefficients", [](const Surface& surface) { return array_of(surface.position_coefficients()); })
       .def_property_readonly("area", &Surface::area)
       .def_property_readonly("volume", &Surface::volume)
-      .def("integral", [](const Surface& surface, const Numbers& field) { return surface.integral(numbers_of(field, "field")); })
+      .def("integral",
+           [](const Surface& surface, const Numbers& field) { return surface.integral(numbers_of(field, "field")); })
       .def("gradient",
            [](const Surface& surface, const Numbers& field) {
              VectorField result;
@@ -184,12 +186,15 @@ void bind_surface(py::module_& m) {
       .def("bending_force",
            [](const Surface& surface, double capillary_number, double spontaneous_curvature) {
              VectorField force = VectorField::Zero(surface.grid().size(), 3);
-             BendingForce(surface.grid(), {.capillary_number = capillary_number, .spontaneous_curvature = spontaneous_curvature})
+             BendingForce(surface.grid(),
+                          {.capillary_number = capillary_number, .spontaneous_curvature = spontaneous_curvature})
                  .add_to(surface, force);
              return copy_of(force);
            })
       .def("bending_energy",
-           [](const Surface& surface, double spontaneous_curvature) { return bending_energy(surface, spontaneous_curvature); })
+           [](const Surface& surface, double spontaneous_curvature) {
+             return bending_energy(surface, spontaneous_curvature);
+           })
       .def("tension_force",
            [](const Surface& surface, const Numbers& tension) {
              VectorField force = VectorField::Zero(surface.grid().size(), 3);
@@ -237,24 +242,27 @@ void bind_shapes(py::module_& m) {
   m.def("oblate", [](const SphereGrid& grid, double v, double radius, const Three& centre, const Nine& rotation) {
     return copy_of(oblate(grid, v, placement_of(radius, centre, rotation)));
   });
-  m.def("spheroid", [](const SphereGrid& grid, double aspect, double radius, const Three& centre, const Nine& rotation) {
-    return copy_of(spheroid(grid, aspect, placement_of(radius, centre, rotation)));
-  });
-  m.def("ellipsoid", [](const SphereGrid& grid, const Three& axes, double radius, const Three& centre, const Nine& rotation) {
-    return copy_of(ellipsoid(grid, vector_of(axes), placement_of(radius, centre, rotation)));
-  });
+  m.def("spheroid",
+        [](const SphereGrid& grid, double aspect, double radius, const Three& centre, const Nine& rotation) {
+          return copy_of(spheroid(grid, aspect, placement_of(radius, centre, rotation)));
+        });
+  m.def("ellipsoid",
+        [](const SphereGrid& grid, const Three& axes, double radius, const Three& centre, const Nine& rotation) {
+          return copy_of(ellipsoid(grid, vector_of(axes), placement_of(radius, centre, rotation)));
+        });
   m.def("biconcave_disc", [](const SphereGrid& grid, double radius, const Three& centre, const Nine& rotation) {
     return copy_of(biconcave_disc(grid, placement_of(radius, centre, rotation)));
   });
-  m.def("perturbed_sphere", [](const SphereGrid& grid, const std::vector<std::tuple<int, int, double>>& terms, double radius,
-                               const Three& centre, const Nine& rotation) {
+  m.def("perturbed_sphere", [](const SphereGrid& grid, const std::vector<std::tuple<int, int, double>>& terms,
+                               double radius, const Three& centre, const Nine& rotation) {
     std::vector<Harmonic> harmonics;
     for (const auto& [degree, order, amplitude] : terms) harmonics.push_back({degree, order, amplitude});
     return copy_of(perturbed_sphere(grid, harmonics, placement_of(radius, centre, rotation)));
   });
   m.def("shape_from_coefficients", [](const SphereGrid& grid, const ComplexArray& coefficients, double radius,
                                       const Three& centre, const Nine& rotation) {
-    return copy_of(shape_from_coefficients(grid, coefficients_of(coefficients), placement_of(radius, centre, rotation)));
+    return copy_of(
+        shape_from_coefficients(grid, coefficients_of(coefficients), placement_of(radius, centre, rotation)));
   });
 }
 

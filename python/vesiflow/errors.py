@@ -21,7 +21,7 @@ class Mistake(NamedTuple):
 
 
 _ITEM = re.compile(r"^  +\d+\. ", re.MULTILINE)
-_KEY = re.compile(r"(?:^|: )(?P<key>[a-z_]+(?:\.[a-z_0-9]+)+|\[\w+\]|[a-z_]+)(?: = (?P<value>.*?))?: (?P<allowed>.*)$", re.DOTALL)
+_KEY = re.compile(r"(?:^|: )(?P<key>[a-z_]+(?:\.[a-z_0-9]+)+|\[\w+\]|title|vesicles)(?: = (?P<value>.*?))?: (?P<allowed>.*)$", re.DOTALL)
 
 
 def _mistakes_in(message: str) -> list[Mistake]:

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a run: history.png and membrane.png from the files that docs/results.md describes.
@@ -6,21 +5,14 @@
 Draws what the folder has, of runs under way or stopped too. A run without snapshots gives the history alone; without fluid snapshots
 the membranes alone.
 """
+from __future__ import annotations
+
 import argparse
 import sys
 from pathlib import Path
+from typing import Optional, Sequence
 
-try:
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    import run_history
-    import run_membranes
-    from run_results import MissingData, Run
-except ImportError as error:
-    sys.exit(f"{error}. A python that has what this needs is found by: scripts/python.sh {' '.join(sys.argv)}")
+from .results import MissingData, Run
 
 STYLE = {
     "font.size": 9,
@@ -31,20 +23,31 @@ STYLE = {
 }
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def main(argv: Optional[Sequence[str]] = None) -> int:
+    """vesiflow plot."""
+    parser = argparse.ArgumentParser(prog="vesiflow plot", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="the folder of the run")
     parser.add_argument("--out", type=Path, help="where the pictures go (default: FOLDER/pictures)")
-    arguments = parser.parse_args()
+    parser.add_argument("--format", choices=("png", "pdf"), default="png", help="of the pictures; lines and text of a pdf are vectors")
+    arguments = parser.parse_args(argv)
     try:
         run = Run(arguments.folder)
     except MissingData as missing:
         parser.error(str(missing))
-    out = arguments.out or arguments.folder / "pictures"
+    try:
+        import matplotlib
 
+        matplotlib.use("Agg")
+        from . import plot_history, plot_membranes
+    except ImportError as error:
+        parser.exit(1, f"error: {error}; pictures need matplotlib and h5py (Debian: python3-matplotlib, python3-h5py)\n")
+    import matplotlib.pyplot as plt
+
+    out = arguments.out or arguments.folder / "pictures"
     plt.rcParams.update(STYLE)
     drawn = 0
-    for name, draw in [("history.png", run_history.draw), ("membrane.png", run_membranes.draw)]:
+    for stem, draw in [("history", plot_history.draw), ("membrane", plot_membranes.draw)]:
+        name = f"{stem}.{arguments.format}"
         try:
             figure, note = draw(run)
         except MissingData as missing:
@@ -56,7 +59,3 @@ def main():
         drawn += 1
         print(f"{out / name}" + (f" ({note})" if note else ""))
     return 0 if drawn else 1
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -6,8 +6,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
-import run_history
-from run_results import MissingData
+from . import plot_history
+from .errors import MissingData
 
 GREY, ORANGE = "0.35", "#D55E00"
 
@@ -269,5 +269,5 @@ def draw(run):
         said.append("with the half that symmetry gives: " + ", ".join(f"mirror {axis} = {box[0][d]:g}" for d, axis in enumerate("xyz") if box[3][d]))
     if box and any(box[2]):
         said.append("the box repeats along " + " and ".join(axis for d, axis in enumerate("xyz") if box[2][d]))
-    run_history.label(figure, run, said)
+    plot_history.label(figure, run, said)
     return figure, "; ".join(notes) or None

@@ -224,6 +224,7 @@ class Run:
         return [{name: course[name][:rows] for name in table.dtype.names} for course in courses]
 
     def membrane_times(self):
+        """Of the snapshots of the membranes."""
         return self._times("vesicle", "output.vesicle_every")
 
     def membranes(self, number):
@@ -233,6 +234,7 @@ class Run:
             return [_membrane(group[name]) for name in _vesicles_of(group)]
 
     def fluid_times(self):
+        """Of the snapshots of the fluid."""
         return self._times("fluid", "output.fluid_every")
 
     def fluid(self, number):
