@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "arrays.h"
+#include "equilibrium.h"
 #include "vesicle/bending.h"
 #include "vesicle/diagnostics.h"
 #include "vesicle/laplace_beltrami.h"
@@ -298,9 +299,31 @@ void bind_meshes(py::module_& m) {
   });
 }
 
+void bind_equilibrium(py::module_& m) {
+  m.def("equilibrium_shape", [](double reduced_volume, bool oblate, int latitudes, double tolerance) {
+    equilibrium::ConstrainedEnergy energy(latitudes);
+    const equilibrium::Equilibrium found = [&] {
+      const py::gil_scoped_release unlocked;
+      return equilibrium::find_equilibrium(energy, oblate ? equilibrium::Branch::oblate : equilibrium::Branch::prolate,
+                                           reduced_volume, equilibrium::Method::gradient_flow,
+                                           {.tolerance = tolerance, .most_iterations = 0, .progress = {}});
+    }();
+    py::dict all;
+    all["positions"] = copy_of(energy.surface().positions());
+    all["energy"] = found.energy;
+    all["tension"] = found.tension;
+    all["pressure"] = found.pressure;
+    all["residual"] = found.residual;
+    all["resolved"] = found.resolved();
+    all["iterations"] = found.iterations;
+    return all;
+  });
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_vesicle, m) {
+  bind_equilibrium(m);
   bind_harmonics(m);
   bind_surface(m);
   bind_shapes(m);

@@ -33,7 +33,7 @@ from .errors import FileError
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-__all__ = ["MeshFit", "SphereGrid", "SphericalHarmonics", "Surface", "biconcave_disc", "ellipsoid", "evaluate", "excess_area", "fit_mesh",
+__all__ = ["Equilibrium", "MeshFit", "SphereGrid", "SphericalHarmonics", "Surface", "biconcave_disc", "ellipsoid", "equilibrium_shape", "evaluate", "excess_area", "fit_mesh",
            "from_coefficients", "from_mesh", "oblate", "perturbed_sphere", "prolate", "read_coefficients", "read_mesh", "reduced_volume",
            "sphere", "spheroid", "write_coefficients"]
 
@@ -408,6 +408,32 @@ def from_coefficients(coefficients: ArrayLike, latitudes: int = 32, *, radius: f
     """The surface of coefficients (degrees, degrees, 3), scaled to the effective radius, its centroid at the centre."""
     return _placed(_vesicle.shape_from_coefficients, latitudes, np.asarray(coefficients, dtype=complex), radius=radius, centre=centre,
                    rotation=rotation)
+
+
+class Equilibrium(NamedTuple):
+    """A shape of least bending energy with given area and volume. Lengths in effective radii r, energy (1/2) int H^2 dA in c_b."""
+
+    surface: Surface  #: of volume 4 pi/3, its axis is z
+    energy: float
+    tension: float  #: in c_b / r^2; nan for the sphere
+    pressure: float  #: inside minus outside, in c_b / r^3; nan for the sphere
+    residual: float  #: of the method: the energy's error is about its square
+    resolved: bool  #: whether the mesh resolves the shape, to about 1e-6 in the energy
+    iterations: int
+
+
+def equilibrium_shape(reduced_volume: float, branch: str = "prolate", latitudes: int = 32, tolerance: float = 1e-9) -> Equilibrium:
+    """The axisymmetric shape that is stationary at a reduced volume, on the branch that goes over into long ("prolate") or flat ("oblate")
+    ellipsoids near the sphere (docs/equilibrium_shapes.md). Raises ValueError for bad values, RuntimeError where none is found.
+
+    >>> shape = equilibrium_shape(0.9, latitudes=16)
+    >>> round(shape.energy, 3), round(shape.surface.reduced_volume, 9)
+    (7.475, 0.9)
+    """
+    if branch not in ("prolate", "oblate"):
+        raise ValueError(f"branch = {branch!r}: allowed are prolate, oblate")
+    found = _vesicle.equilibrium_shape(reduced_volume, branch == "oblate", latitudes, tolerance)
+    return Equilibrium(Surface(found.pop("positions")), **found)
 
 
 # ---- files ----
