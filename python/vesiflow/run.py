@@ -17,10 +17,13 @@ vesiflow.errors.SceneError: 2 mistakes:
 """
 from __future__ import annotations
 
+import concurrent.futures
 import contextlib
 import json
 import os
 import re
+import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
@@ -34,7 +37,7 @@ SceneSource = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scene"]
 #: Keys and values that override those of a scene: a dictionary, or words "key=value" as on the command line.
 Overrides = Union[Mapping[str, Any], Sequence[str], None]
 
-__all__ = ["Finished", "Scene", "Simulation", "built_with", "plan", "run", "scene_keys", "set_threads", "threads", "version"]
+__all__ = ["Finished", "Scene", "Simulation", "built_with", "plan", "run", "run_all", "scene_keys", "set_threads", "threads", "version"]
 
 CHECKPOINT = "checkpoint.h5"
 
@@ -352,3 +355,37 @@ def run(scene: Union[SceneSource, Simulation], out: Union[str, "os.PathLike[str]
     if status == "interrupted":
         raise KeyboardInterrupt
     return Finished(status, code, Run(folder))
+
+
+def run_all(scenes: Mapping[str, SceneSource], out: Union[str, "os.PathLike[str]"], *, processes: Optional[int] = None) -> dict[str, Run]:
+    """Runs several scenes side by side, each in a process of its own, into the folders `out`/NAME, and returns their results by name.
+
+    All scenes are checked before any is run. `processes` run at once, as many as there are cores unless told, and share the cores. A run that
+    ends early has the status that says so; what it said is in `out`/NAME.log. Ctrl-C ends all of them, each with a checkpoint.
+    """
+    cores = len(os.sched_getaffinity(0))
+    at_once = min(processes or cores, max(len(scenes), 1))
+    if at_once < 1:
+        raise ValueError(f"processes = {processes}: must be >= 1")
+    folder = Path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {}
+    for name, source in scenes.items():
+        if not re.fullmatch(r"[\w.+-]+", name):
+            raise ValueError(f"{name!r}: a name of a run may have letters, digits, and . _ + -")
+        try:
+            text = Scene(source).to_toml()
+        except SceneError as error:
+            raise SceneError(f"{name}: {error}") from None
+        files[name] = folder / f"{name}.toml"
+        files[name].write_text(text)
+    environment = os.environ | {"OMP_NUM_THREADS": str(max(cores // at_once, 1)), "PYTHONPATH": os.pathsep.join(sys.path)}
+
+    def carry_out(name: str) -> None:
+        command = [sys.executable, "-m", "vesiflow", "run", str(files[name]), "--out", str(folder / name), "--quiet"]
+        with open(folder / f"{name}.log", "w") as log:
+            subprocess.run(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=environment, check=False)
+
+    with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
+        list(pool.map(carry_out, files))
+    return {name: Run(folder / name) for name in files}
