@@ -5,15 +5,14 @@ import doctest
 import importlib
 import unittest
 
-MODULES = ["vesiflow", "vesiflow.coupling", "vesiflow.errors", "vesiflow.fluid", "vesiflow.progress", "vesiflow.results", "vesiflow.run",
+MODULES = ["vesiflow", "vesiflow.coupling", "vesiflow.errors", "vesiflow.fluid", "vesiflow.plot_smooth", "vesiflow.progress", "vesiflow.results", "vesiflow.run",
            "vesiflow.table", "vesiflow.vesicle"]
 
 
 def load_tests(loader, tests, pattern):
     for name in MODULES:
         module = importlib.import_module(name)
-        suite = doctest.DocTestSuite(module)
-        tests.addTests(suite)
+        tests.addTests(doctest.DocTestSuite(module))
     return tests
 
 

@@ -15,13 +15,14 @@ import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
-from vesiflow import plot, plot_history, plot_membranes, plot_references  # noqa: E402
+from vesiflow import plot, plot_history, plot_membranes, plot_references, plot_smooth  # noqa: E402
 from vesiflow.results import MissingData, Run  # noqa: E402
 
 COLUMNS = ("step time vesicle inclination_angle_deg tank_treading_frequency area_error volume_error max_local_area_error max_label_area_error "
            "bending_energy reduced_volume deformation centroid_x centroid_y centroid_z min_distance").split()
 LATITUDES = 8
 plot.STYLE["savefig.dpi"] = 50
+plot_membranes.ROWS = 24
 
 
 def sphere(centre):
@@ -96,12 +97,12 @@ class PlotRun(unittest.TestCase):
     def run_of(self, **of):
         return Folder(self.path, **of)
 
-    def plot(self):
+    def plot(self, *options):
         """Exit code, output and errors of the program."""
         out, err = io.StringIO(), io.StringIO()
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             try:
-                code = plot.main([str(self.path)])
+                code = plot.main([str(self.path), *options])
             except SystemExit as end:
                 code = end.code
         return code, out.getvalue(), err.getvalue()
@@ -124,6 +125,17 @@ class PlotRun(unittest.TestCase):
         code, out, err = self.plot()
         self.assertEqual((code, err), (0, ""))
         self.assert_drawn("history.png", "membrane.png")
+
+    def test_an_animation_and_a_vector_file(self):
+        self.run_of(times=(0.0, 1.0)).summary().table().membranes()
+        code, out, err = self.plot("--format", "pdf", "--animation")
+        self.assertEqual((code, err), (0, ""))
+        names = sorted(p.name for p in self.path.glob("pictures/*"))
+        self.assertEqual([names[0], names[2]], ["history.pdf", "membrane.pdf"])
+        movie = self.path / "pictures" / names[1]
+        self.assertIn(movie.suffix, (".mp4", ".gif"))
+        self.assertGreater(movie.stat().st_size, 5000)  # two frames that are not blank
+        self.assertTrue((self.path / "pictures/history.pdf").read_bytes().startswith(b"%PDF"))
 
     def test_a_folder_without_a_run_and_a_run_without_anything_leave_nothing_behind(self):
         code, _, err = self.plot()
@@ -257,6 +269,25 @@ class PlotRun(unittest.TestCase):
             for centre, membranes in zip(centres, snapshots):
                 for points, _, _ in membranes:
                     self.assertTrue(np.all(np.abs(points @ plot_membranes.VIEW.T[:, :2] - centre) <= reach))
+
+
+class Smooth(unittest.TestCase):
+    def test_a_finer_mesh_lies_on_the_surface_of_the_markers(self):
+        points = sphere(np.zeros(3)) * [1.0, 1.0, 2.0]  # an ellipsoid, of degree 1: exact
+        tension = points[:, 2] ** 2
+        fine, values, faces = plot_smooth.smooth((points, tension, None), 40)
+        self.assertEqual((fine.shape, faces.shape), ((41 * 80, 3), (40 * 80, 4)))
+        np.testing.assert_allclose(np.sum((fine / [1, 1, 2]) ** 2, axis=1), 1.0, atol=1e-13)
+        np.testing.assert_allclose(values, fine[:, 2] ** 2, atol=1e-12)
+        corners = fine[faces]
+        area = 0.5 * np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1).sum()
+        exact = 2 * np.pi * (1 + 4 / np.sqrt(3) * np.arcsin(np.sqrt(3) / 2))  # of semi-axes 1, 1 and 2; flat cells have less, by (pi/40)^2/4
+        self.assertAlmostEqual(area / exact, 1.0, delta=2e-3)
+        self.assertTrue(np.all(np.sum(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]) * corners.mean(axis=1), axis=1) > 0))
+
+    def test_what_would_be_no_finer_stays(self):
+        membrane = (sphere(np.zeros(3)), None, None)
+        self.assertIs(plot_smooth.smooth(membrane, LATITUDES), membrane)
 
 
 if __name__ == "__main__":

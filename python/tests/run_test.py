@@ -4,7 +4,9 @@
 
 usage: run_test.py [APPS]        APPS: the folder of the programs; without it what compares with them is skipped
 """
+import ast
 import contextlib
+import importlib
 import io
 import json
 import os
@@ -203,6 +205,18 @@ class Modules(unittest.TestCase):
 
     def test_results_are_read_without_any_compiled_part(self):
         self.assertEqual(self.loaded_by("import vesiflow.results, vesiflow.plot_history, vesiflow.plot_membranes").strip(), "[]")
+
+    def test_stubs_name_what_the_compiled_modules_have(self):
+        for name in ("_vesicle", "_fluid", "_coupling", "_run"):
+            module = importlib.import_module(f"vesiflow.{name}")
+            stub = ast.parse((pathlib.Path(vesiflow.__file__).parent / f"{name}.pyi").read_text())
+            said = {node.name: node for node in stub.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+            self.assertEqual(set(said), {member for member in vars(module) if not member.startswith("_")}, name)
+            for kind, node in said.items():
+                if not isinstance(node, ast.ClassDef):
+                    continue
+                members = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in node.body}
+                self.assertEqual(members - {"__init__"}, {m for m in vars(getattr(module, kind)) if not m.startswith("_")}, f"{name}.{kind}")
 
     def test_names_and_their_documentation(self):
         for name in vesiflow.__all__:

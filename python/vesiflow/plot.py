@@ -29,6 +29,7 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
     parser.add_argument("folder", type=Path, help="the folder of the run")
     parser.add_argument("--out", type=Path, help="where the pictures go (default: FOLDER/pictures)")
     parser.add_argument("--format", choices=("png", "pdf"), default="png", help="of the pictures; lines and text of a pdf are vectors")
+    parser.add_argument("--animation", action="store_true", help="membrane.mp4 of all snapshots too, or membrane.gif where there is no ffmpeg")
     arguments = parser.parse_args(argv)
     try:
         run = Run(arguments.folder)
@@ -58,4 +59,10 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         plt.close(figure)
         drawn += 1
         print(f"{out / name}" + (f" ({note})" if note else ""))
+    if arguments.animation:
+        try:
+            print(plot_membranes.animate(run, out))
+            drawn += 1
+        except MissingData as missing:
+            print(f"no animation: {missing}", file=sys.stderr)
     return 0 if drawn else 1
