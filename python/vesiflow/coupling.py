@@ -369,7 +369,7 @@ class Simulation:
         core_parameters = _coupling.Parameters(flattened(parameters))
         chosen = shear_flow() if flow is None else as_flow(flow)
         self._prepare()
-        self._core = _coupling.Simulation(core_parameters, chosen.in_domain(core_parameters))
+        self._core: Any = _coupling.Simulation(core_parameters, chosen.in_domain(core_parameters))
 
     def _prepare(self) -> None:
         self._busy = threading.Lock()
@@ -432,8 +432,8 @@ class Simulation:
         every = self._usual_interval() if record_every is None else record_every
         if not every >= 0:
             raise ValueError(f"record_every = {record_every}: must be >= 0")
-        bar = ProgressBar(end, begin) if progress else contextlib.nullcontext()
-        with _deferred_interrupt() as interrupted, bar:
+        bar = ProgressBar(end, begin) if progress else None
+        with _deferred_interrupt() as interrupted, bar or contextlib.nullcontext():
             if every and not self._rows:
                 self.record()
             while not self._has_reached(until, end) and not interrupted():
@@ -441,7 +441,7 @@ class Simulation:
                     self._step()
                 if every and self._is_due(every):
                     self.record()
-                if progress:
+                if bar:
                     bar.show(self.time, self.steps)
                 if callback is not None and callback(self) is True:
                     break

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
+import functools
 import json
 import os
 import re
@@ -126,6 +127,8 @@ class Scene:
 
     def __init__(self, source: SceneSource, overrides: Overrides = None) -> None:
         words = _overrides(overrides)
+        self.name: str
+        self._core: Any
         if isinstance(source, Scene):
             self.name = source.name
             self._core = source._core if not words else _run.parse_scene(source.to_toml(), source.name, words)
@@ -175,7 +178,7 @@ def _parsed(text: str) -> dict[str, Any]:
     try:
         import tomllib
     except ImportError:  # before Python 3.11
-        import tomli as tomllib
+        import tomli as tomllib  # type: ignore
     return tomllib.loads(text)
 
 
@@ -334,7 +337,7 @@ def run(scene: Union[SceneSource, Simulation], out: Union[str, "os.PathLike[str]
     name = simulation._given.name
     folder = Path(out) if out is not None else Path("out") / (Path(name).stem if Path(name).suffix else Path(name).resolve().name)
 
-    def between(function: Optional[Callable], *arguments: Any) -> Any:
+    def between(function: Callable, *arguments: Any) -> Any:
         with simulation._between_steps():
             return function(simulation, *arguments)
 
@@ -346,8 +349,8 @@ def run(scene: Union[SceneSource, Simulation], out: Union[str, "os.PathLike[str]
         "start_from": None if start_from is None else os.fspath(start_from),
         "quiet": quiet,
         "command": list(command),
-        "after_step": None if after_step is None else lambda: between(after_step),
-        "before_output": None if before_output is None else lambda what: between(before_output, what),
+        "after_step": None if after_step is None else functools.partial(between, after_step),
+        "before_output": None if before_output is None else functools.partial(between, before_output),
         "diagnostics": {column: (lambda vesicle, of=of: between(of, vesicle)) for column, of in (diagnostics or {}).items()},
     }
     with simulation._in_use():

@@ -101,7 +101,7 @@ class SphereGrid:
 
 def _with_fields(values: ArrayLike, axes: int, dtype: type) -> tuple[np.ndarray, bool]:
     """With an axis of fields at the end, and whether it was added."""
-    array = np.asarray(values, dtype=dtype)
+    array: np.ndarray = np.asarray(values, dtype=dtype)
     return (array[..., None], True) if array.ndim == axes else (array, False)
 
 
