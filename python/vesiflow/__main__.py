@@ -55,6 +55,8 @@ def _carry_out(arguments: argparse.Namespace) -> int:
         if arguments.plan:
             print(scene.plan(out or "."), end="")
             return 0
+        if warning := scene.memory_warning():
+            print(f"warning: {warning}", file=sys.stderr)
         words = ["vesiflow", "run"] + (["--threads", str(arguments.threads)] if arguments.threads else []) + ["--quiet"] * arguments.quiet
         ended = runs.run(scene, out, restart=arguments.restart, start_from=arguments.start_from, quiet=arguments.quiet, command=words)
     except KeyboardInterrupt:

@@ -426,7 +426,8 @@ class Simulation:
 
         Ctrl-C ends the run between two steps with KeyboardInterrupt: the state is whole and can go on or be saved.
         """
-        begin, end = self.time, self.parameters["time.end"] if until is None else float(until)
+        parameters = self.parameters
+        begin, end = self.time, parameters["time.end"] if until is None else float(until)
         if not math.isfinite(end):
             raise ValueError(f"until = {until}: must be finite")
         every = self._usual_interval() if record_every is None else record_every
@@ -439,7 +440,7 @@ class Simulation:
             while not self._has_reached(until, end) and not interrupted():
                 with self._in_use():
                     self._step()
-                if every and self._is_due(every):
+                if every and self._is_due(every, parameters["time.adaptive"]):
                     self.record()
                 if bar:
                     bar.show(self.time, self.steps)
@@ -449,11 +450,11 @@ class Simulation:
                 self.record()
         return self
 
-    def _is_due(self, every: float) -> bool:
+    def _is_due(self, every: float, adaptive: bool) -> bool:
         """Whether this is the step for a multiple of `every`: of equal steps the nearest, of adaptive ones the first at or beyond it. The
         programs take the same."""
         time, dt = self.time, self.time_step
-        if self.parameters["time.adaptive"]:
+        if adaptive:
             return math.floor(time / every + 1e-9) > math.floor((time - dt) / every + 1e-9)
         return math.floor((time + 0.5 * dt) / every) > math.floor((time - 0.5 * dt) / every)
 

@@ -25,7 +25,7 @@ import numpy as np
 from .errors import MissingData
 from .table import Table
 
-__all__ = ["MissingData", "Run", "open"]
+__all__ = ["FluidSnapshot", "MembraneRecord", "MissingData", "Run", "Snapshot", "Snapshots"]
 
 
 def open(folder: Union[str, "os.PathLike[str]"]) -> Run:  # noqa: A001: vesiflow.open reads as it should

@@ -170,6 +170,10 @@ class Scene:
         """What a run will compute, in words, and what it will take. Nothing of the size of the grid is allocated."""
         return self._core.plan(threads(), os.fspath(directory))
 
+    def memory_warning(self) -> str:
+        """What to say of a scene that is planned to take more memory than the machine has free; empty if it fits."""
+        return self._core.memory_warning()
+
     def __repr__(self) -> str:
         return f"<Scene {self.name}>"
 
