@@ -86,10 +86,8 @@ bool SimulationParameters::corrects_fluid(double dt) const {
   if (coupling.method != CouplingMethod::sharp || fluid.inertia == fluid::Inertia::none ||
       time.markers != MarkerMotion::shape_following)
     return false;
-  double radius = 0.0;
-  for (const VesicleParameters& vesicle : vesicles) radius = std::max(radius, vesicle.radius);
   // Inside, w = mu u has the Reynolds number Re/ratio.
-  return fluid.reynolds_number * radius * radius > dt * std::min(1.0, viscosity_range().least);
+  return vesicle_reynolds_number(*this) > dt * std::min(1.0, viscosity_range().least);
 }
 
 bool SimulationParameters::follows_shape() const {

@@ -293,14 +293,15 @@ void Stepper::check_given() {
 }
 
 void Stepper::keep_force() {
-  if (!stokes_ && !driven_) driven_.emplace(Driven{FaceVector(grid), {}, -1, WallVelocity(grid, [](const Vector3&, double) { return Vector3{}; })});
+  if (!stokes_ && !driven_)
+    driven_.emplace(
+        Driven{FaceVector(grid), {}, -1, WallVelocity(grid, [](const Vector3&, double) { return Vector3{}; })});
 }
 
 void Stepper::solve_again() {
   if (clock.steps == 0 || (!stokes_ && !(driven_ && driven_->step == clock.steps)))
     throw std::logic_error("fluid: solve_again() is after a step and, with inertia, one after keep_force()");
-  if (variable_viscosity() && !stokes_)
-    throw std::logic_error("fluid: solve_again() with inertia is of one viscosity");
+  if (variable_viscosity() && !stokes_) throw std::logic_error("fluid: solve_again() with inertia is of one viscosity");
   try {
     if (stokes_) {
       check_given();
@@ -323,7 +324,8 @@ void Stepper::add_change() {
     const Blocks right_side = change.unknowns();
     scale_and_add(-1.0, std::as_const(force).unknowns(), right_side);
     for (int axis = 0; axis < 3; ++axis)
-      if (const double more = uniform_force[axis] - driven_->uniform_force[axis]; more != 0.0) add_constant(more, right_side[axis]);
+      if (const double more = uniform_force[axis] - driven_->uniform_force[axis]; more != 0.0)
+        add_constant(more, right_side[axis]);
     report.momentum = velocity_solver->solve(std::as_const(change).unknowns(), change.unknowns());
     check_converged("velocity", report.momentum);
   }

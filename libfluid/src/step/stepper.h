@@ -56,7 +56,8 @@ class Stepper {
   };
   // What solve_again() starts from where there is inertia.
   struct Driven {
-    FaceVector force;      // at inner faces, else zero: of the last step; while that is solved again, the change of the velocity
+    FaceVector
+        force;  // at inner faces, else zero: of the last step; while that is solved again, the change of the velocity
     Vector3 uniform_force{};
     long step = -1;        // whose forces they are
     WallVelocity at_rest;  // the walls of a change
