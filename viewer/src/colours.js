@@ -27,7 +27,7 @@ export function colourOf(L, chroma, hue) {
 }
 
 // From dark violet over teal to light yellow.
-const sequential = (x) => colourOf(0.3 + 0.63 * x, 0.11 + 0.055 * Math.sin(Math.PI * x) + 0.04 * x, 300 - 195 * x ** 0.92);
+const sequential = (x) => colourOf(0.28 + 0.64 * x, 0.098 + 0.06 * (2 * x - 1) ** 2, 305 - 200 * x);
 
 // Blue below the middle, orange above it.
 const diverging = (x) => {
@@ -51,7 +51,7 @@ export function scaleOf(low, high) {
     const half = Math.max(0.01 * largest, 1e-12);
     return { map: "sequential", low: low - half, high: high + half };
   }
-  if (low < -0.1 * largest && high > 0.1 * largest) return { map: "diverging", low: -largest, high: largest };
+  if (low < -0.25 * largest && high > 0.25 * largest) return { map: "diverging", low: -largest, high: largest };
   return { map: "sequential", low, high };
 }
 

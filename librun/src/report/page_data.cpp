@@ -59,11 +59,14 @@ Json fluid_of(const FluidPlanes& fluid) {
 
 Json quantities_of(const DiagnosticsRows& rows) {
   Json all = Json::object();
-  for (const std::string& name : rows.columns) {
-    if (name == "step" || name == "time" || name == "vesicle") continue;
-    const Quantity quantity = quantity_of(vesicle_quantities(), name);
-    all[name] = {{"label", quantity.label}, {"unit", quantity.unit}, {"group", quantity.group}};
-  }
+  const auto add = [&](const Quantity& quantity) {
+    all[std::string(quantity.name)] = {{"label", quantity.label}, {"unit", quantity.unit}, {"group", quantity.group}};
+  };
+  // Known ones in the order of the plots, then those of the program's own.
+  for (const Quantity& quantity : vesicle_quantities())
+    if (rows.column(std::string(quantity.name)) != nullptr) add(quantity);
+  for (const std::string& name : rows.columns)
+    if (name != "step" && name != "time" && name != "vesicle" && !all.contains(name)) add(quantity_of(vesicle_quantities(), name));
   return all;
 }
 
