@@ -4,7 +4,7 @@
 import { build } from "esbuild";
 import { readFileSync } from "node:fs";
 
-const licences = ["three", "uplot"].map((name) => `${name}: ${readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim()}`);
+const licences = ["three", "uplot"].map((name) => `${name}: ${readFileSync(`node_modules/${name}/LICENSE`, "utf8").trim().replaceAll("\u00a9", "(c)")}`);
 
 await build({
   entryPoints: ["src/main.js"],
