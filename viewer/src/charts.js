@@ -68,7 +68,7 @@ class Chart {
       [times, ...this.lines.map((line) => line.values.slice(0, times.length))],
       this.place,
     );
-    this.plot.over.addEventListener("click", () => clock.showTime(this.plot.posToVal(this.plot.cursor.left, "x")));
+    this.plot.over.addEventListener("click", (event) => clock.showTime(this.plot.posToVal(event.offsetX, "x")));
     this.follow();
   }
 

@@ -16,7 +16,7 @@ export function make(tag, attributes = {}, ...children) {
 
 /** A choice with its label. `options` are pairs of value and text. */
 export function choice(label, options, onchange) {
-  const select = make("select", { onchange: () => onchange(select.value) }, ...options.map(([value, text]) => make("option", { value }, text)));
+  const select = make("select", { "aria-label": label, onchange: () => onchange(select.value) }, ...options.map(([value, text]) => make("option", { value }, text)));
   return { row: make("label", {}, `${label} `, select), select };
 }
 
