@@ -23,7 +23,6 @@ export class Stage {
     this.compass.width = this.compass.height = 160;
     this.compass.className = "compass";
     this.compass.setAttribute("aria-hidden", "true");
-    Object.assign(this.compass.style, { position: "absolute", right: "6px", top: "6px", width: "80px", height: "80px", pointerEvents: "none" });
     element.append(this.compass);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(28, 1, 0.05, 2000);

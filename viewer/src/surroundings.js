@@ -69,8 +69,8 @@ export function drawCompass(context, camera, isDark, size) {
     context.strokeStyle = context.fillStyle = isDark ? colour.dark : colour.light;
     context.beginPath();
     context.moveTo(size / 2, size / 2);
-    context.lineTo(size / 2 + 0.33 * size * x, size / 2 - 0.33 * size * y);
+    context.lineTo(size / 2 + 0.29 * size * x, size / 2 - 0.29 * size * y);
     context.stroke();
-    context.fillText(name, size / 2 + 0.42 * size * x, size / 2 - 0.42 * size * y);
+    context.fillText(name, size / 2 + 0.39 * size * x, size / 2 - 0.39 * size * y);
   }
 }

@@ -118,6 +118,8 @@ export class View {
   /** What is chosen changes; `part` is one of `choices`. */
   choose(part, value) {
     this.choices[part] = value;
+    const input = this.inputs?.[part];
+    if (input) input[input.type === "checkbox" ? "checked" : "value"] = value;
     if (part === "field") this.meshes.recolour(this.field, this.scale);
     if (part === "lines") this.meshes.drawLines(value);
     if (part === "box" && this.boxGroup) this.boxGroup.visible = value;
@@ -162,16 +164,28 @@ export class View {
   choicesControls() {
     const { data } = this;
     const fields = data.membranes.fields.filter((field) => field.components === 1).map((field) => [field.name, field.label]);
-    const rows = [choice("Colour", fields, (name) => this.choose("field", name)).row];
-    rows.push(tick("Mesh lines", false, (on) => this.choose("lines", on)).row);
+    const rows = [];
+    this.inputs = {};
+    const addChoice = (part, label, options, take = (value) => value) => {
+      const { row, select } = choice(label, options, (value) => this.choose(part, take(value)));
+      this.inputs[part] = select;
+      rows.push(row);
+    };
+    const addTick = (part, label) => {
+      const { row, box } = tick(label, this.choices[part], (on) => this.choose(part, on));
+      this.inputs[part] = box;
+      rows.push(row);
+    };
+    addChoice("field", "Colour", fields);
+    addTick("lines", "Mesh lines");
     if (this.slice.isThere) {
       const shown = [["none", "none"], ...Object.entries(quantities).map(([name, { label }]) => [name, label.split(" ")[0]])];
-      rows.push(choice("Fluid", shown, (name) => this.choose("fluid", name)).row);
+      addChoice("fluid", "Fluid", shown);
       if (data.fluid.planes.length > 1)
-        rows.push(choice("Plane", data.fluid.planes.map((plane, p) => [p, `${"xyz"[plane.axis]} = ${figures(plane.position, 3)}`]), (p) => this.choose("plane", Number(p))).row);
-      rows.push(tick("Streamlines", false, (on) => this.choose("streamlines", on)).row);
+        addChoice("plane", "Plane", data.fluid.planes.map((plane, p) => [p, `${"xyz"[plane.axis]} = ${figures(plane.position, 3)}`]), Number);
+      addTick("streamlines", "Streamlines");
     }
-    if (this.box) rows.push(tick("Box", true, (on) => this.choose("box", on)).row);
+    if (this.box) addTick("box", "Box");
     rows.push(choice("View", Object.keys(views).map((name) => [name, name]), (name) => this.fit(this.fitted, name)).row);
     const fitButton = (what, text) => make("button", { type: "button", onclick: () => this.fit((this.fitted = what), this.viewName) }, text);
     rows.push(fitButton("vesicles", "Fit vesicles"));
