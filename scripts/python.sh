@@ -8,7 +8,7 @@
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 [[ $# -ne 1 || $1 != --help ]] || no_more_options --help
-root=$(dirname "$(dirname "$script")")
+root=$(realpath "$(dirname "$0")/..")
 package=$root/python
 for build in ${VESIFLOW_BUILD:+"$(realpath -m "$VESIFLOW_BUILD")"} "$root"/build/{release,test,audit,dev}; do
   if compgen -G "$build/python/vesiflow/_run.*.so" >/dev/null; then

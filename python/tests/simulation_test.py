@@ -295,6 +295,25 @@ class Functions(unittest.TestCase):
         simulation.step()
         self.assertLess(np.abs(simulation.fluid.velocity.y).max(), driven / 10)
 
+    def test_a_force_of_arrays_is_the_same_as_of_points(self):
+        forces = {False: lambda x, t: (np.sin(x[1]) + t, x[0] * x[2], np.cos(x[1]) * x[0]),
+                  True: lambda x, y, z, t: (np.sin(y) + t, x * z, np.cos(y) * x)}
+        for box in ({}, {"domain.periodic": [False, True, False]}):
+            found = []
+            for arrays, force in forces.items():
+                simulation = vesiflow.Simulation(small(**{"domain.cells": [16, 12, 20]} | box))
+                simulation.set_fluid_force(force, arrays=arrays)
+                simulation.step()
+                simulation.step()
+                found.append(simulation.fluid.velocity)
+            for one, other in zip(*found):
+                np.testing.assert_allclose(one, other, rtol=0, atol=1e-14)  # sines of one number and of many may differ in the last bit
+        simulation.set_fluid_force(lambda x, y, z, t: (1.0, 0.0, 0.0), arrays=True)
+        simulation.step()
+        simulation.set_fluid_force(lambda x, y, z, t: (np.zeros(7), 0.0, 0.0), arrays=True)
+        with self.assertRaisesRegex(ValueError, "broadcast"):
+            simulation.step()
+
     def test_what_a_function_raises_comes_through_and_ends_the_simulation(self):
         for bad, error in ((lambda t, v, s: 1 / 0, ZeroDivisionError), (lambda t, v, s: np.zeros((5, 3)), ValueError),
                            (lambda t, v, s: "force", ValueError)):

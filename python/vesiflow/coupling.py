@@ -30,12 +30,13 @@ import math
 import signal
 import threading
 import weakref
-from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _coupling
+from .fluid import Grid, Velocity
 from .progress import ProgressBar
 from .table import Table
 
@@ -44,7 +45,7 @@ Point = tuple[float, float, float]
 #: u(x, t): three numbers at a point x (a tuple of three) and time t. Of flows and of forces per volume of the fluid.
 VectorFunction = Callable[[Point, float], Sequence[float]]
 
-__all__ = ["Flow", "Fluid", "ForcedSurface", "Membrane", "Membranes", "Simulation", "Velocity", "custom_flow", "duct_flow", "extension_flow",
+__all__ = ["Flow", "Fluid", "ForcedSurface", "Membrane", "Membranes", "Simulation", "custom_flow", "duct_flow", "extension_flow",
            "flow_at_rest", "oscillating_shear_flow", "plane_poiseuille_flow", "set_threads", "shear_flow", "threads"]
 
 
@@ -164,20 +165,6 @@ def flattened(values: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
 # ---- what a simulation has ----
 
 
-class Velocity(NamedTuple):
-    """Components of the velocity at the faces of the grid, each indexed [i, j, k]: x has the shape (nx + 1, ny, nz), y (nx, ny + 1, nz) and
-    z (nx, ny, nz + 1)."""
-
-    x: Array
-    y: Array
-    z: Array
-
-    def at_cells(self) -> Array:
-        """Means of the two faces of each cell: a new array of the shape (nx, ny, nz, 3)."""
-        u, v, w = self
-        return np.stack([(u[1:] + u[:-1]) / 2, (v[:, 1:] + v[:, :-1]) / 2, (w[:, :, 1:] + w[:, :, :-1]) / 2], axis=-1)
-
-
 class Membrane:
     """A membrane of a simulation. Its arrays are views of the simulation's memory, read-only: they are of the present time until the next step,
     and live as long as they are referred to. Copy what you want to keep: `membrane.positions.copy()`."""
@@ -288,10 +275,8 @@ class Fluid:
         return self._simulation._core_at_rest().viscosity()
 
     @property
-    def grid(self):
-        """A vesiflow.fluid.Grid with the coordinates of the points."""
-        from .fluid import Grid
-
+    def grid(self) -> Grid:
+        """With the coordinates of the points."""
         p = self._simulation.parameters
         return Grid(p["domain.lower"], p["domain.upper"], p["domain.cells"], p["domain.periodic"], p["domain.mirror"])
 
@@ -326,7 +311,8 @@ class _Forces:
 
     def __init__(self) -> None:
         self.on_membranes: list[MembraneForce] = []
-        self.on_fluid: Optional[VectorFunction] = None
+        self.on_fluid: Optional[Callable] = None
+        self.of_arrays = False
 
     def attach_membranes(self, core: Any) -> None:
         this = weakref.ref(self)
@@ -345,11 +331,11 @@ class _Forces:
     def attach_fluid(self, core: Any) -> None:
         this = weakref.ref(self)
 
-        def on_fluid(x: Point, t: float) -> Sequence[float]:
+        def on_fluid(*place: Any) -> Any:
             forces = this()
-            return forces.on_fluid(x, t) if forces and forces.on_fluid else (0.0, 0.0, 0.0)
+            return forces.on_fluid(*place) if forces and forces.on_fluid else (0.0, 0.0, 0.0)
 
-        core.set_fluid_force(on_fluid if self.on_fluid else None)
+        core.set_fluid_force(on_fluid if self.on_fluid else None, self.of_arrays)
 
 
 @contextlib.contextmanager
@@ -534,13 +520,17 @@ class Simulation:
                 self._forces.attach_membranes(self._core)
         return force
 
-    def set_fluid_force(self, force: Optional[VectorFunction]) -> None:
-        """Sets the force on the fluid per volume from the next step on, `force(x, t)` with x a tuple of three, or none (None). It is called at
-        each face of the grid in each step: about a microsecond for each."""
+    def set_fluid_force(self, force: Optional[Callable], *, arrays: bool = False) -> None:
+        """Sets the force on the fluid per volume from the next step on, or none (None).
+
+        It is `force(x, t)` with x a tuple of three, which gives three numbers and is called at each face of the grid in each step: about a
+        microsecond for each. With `arrays` it is `force(x, y, z, t)`, which is called three times in a step with arrays of all faces, and
+        gives three numbers or arrays of their shape. It is no part of checkpoints.
+        """
         if force is not None and not callable(force):
             raise TypeError(f"a force is a function force(x, t), not {force!r}")
         with self._in_use():
-            self._forces.on_fluid = force
+            self._forces.on_fluid, self._forces.of_arrays = force, arrays
             self._forces.attach_fluid(self._core)
 
     # -- numbers --
