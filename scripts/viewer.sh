@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 no_more_options "$@"
 
 if ! { command -v node && command -v npm; } >/dev/null; then
-  echo "viewer.sh: node and npm are needed; on Debian: apt-get install --no-install-recommends nodejs npm" >&2
+  echo "viewer.sh: node and npm are needed (scripts/install-deps.sh --viewer)" >&2
   exit 1
 fi
 cd viewer

@@ -44,6 +44,13 @@ function tableOf(map) {
 
 export const tables = { sequential: tableOf(sequential), diverging: tableOf(diverging) };
 
+/** Whether dark lines are better to be seen on the colour of x. */
+export function isLight(name, x) {
+  const i = 4 * Math.round(255 * Math.min(1, Math.max(0, x)));
+  const [r, g, b] = tables[name].subarray(i, i + 3);
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b > 135;
+}
+
 /** How a field is coloured: the map and the values at its ends. A field on both sides of zero is shown about zero. */
 export function scaleOf(low, high) {
   const largest = Math.max(Math.abs(low), Math.abs(high));

@@ -5,7 +5,7 @@ import {
   BufferAttribute, BufferGeometry, ClampToEdgeWrapping, DataTexture, DataUtils, DoubleSide, GLSL3, Group, HalfFloatType, LinearFilter,
   LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, RedFormat, ShaderMaterial,
 } from "three";
-import { scaleOf } from "./colours.js";
+import { isLight, scaleOf } from "./colours.js";
 import { textures } from "./membranes.js";
 import { streamlines } from "./streamlines.js";
 
@@ -75,16 +75,37 @@ export class Slice {
     if (!this.isThere || (quantity === "none" && !withLines)) return;
     const plane = this.fluid.planes[number];
     const snapshot = this.snapshotAt(time);
-    if (quantity !== "none") this.group.add(this.colouredPlane(plane, plane[quantity](snapshot), this.scale(plane, quantity)));
-    if (withLines) this.addLines(plane, snapshot, quantity === "none");
+    const values = quantity === "none" ? null : plane[quantity](snapshot);
+    const scale = values && this.scale(plane, quantity);
+    const parts = new Group();
+    if (values) parts.add(this.colouredPlane(plane, values, scale));
+    if (withLines) parts.add(...this.lines(plane, snapshot, values, scale));
+    for (const image of this.images(plane, parts)) this.group.add(image);
+    this.drawn = parts.children;
+  }
+
+  // With images in planes of symmetry that the plane crosses.
+  images(plane, parts) {
+    let all = [parts];
+    for (const axis of plane.axes.filter((a) => this.box?.mirror?.[a])) {
+      const mirrored = all.map((image) => {
+        const copy = image.clone();
+        copy.scale.setComponent(axis, -copy.scale.getComponent(axis));
+        copy.position.setComponent(axis, 2 * this.box.lower[axis] - copy.position.getComponent(axis));
+        return copy;
+      });
+      all = [...all, ...mirrored];
+    }
+    return all;
   }
 
   clear() {
-    for (const part of this.group.children) {
+    for (const part of this.drawn ?? []) {
       part.geometry.dispose();
       part.material.uniforms?.field?.value.dispose();
       part.material.dispose();
     }
+    this.drawn = [];
     this.group.clear();
   }
 
@@ -115,7 +136,8 @@ export class Slice {
     return new Mesh(geometry, material);
   }
 
-  addLines(plane, snapshot, isAlone) {
+  // Lines and their heads: grey where they are alone, and on colours white on what is dark, dark on what is light.
+  lines(plane, snapshot, values, scale) {
     const velocity = plane.velocity(snapshot);
     const edge = Math.max(plane.upper[0] - plane.lower[0], plane.upper[1] - plane.lower[1]);
     const apart = edge * apartShare;
@@ -126,11 +148,24 @@ export class Slice {
       for (let k = 0; k + 1 < line.length; ++k) ends.push(...this.point(plane, ...line[k]), ...this.point(plane, ...line[k + 1]));
       heads.push(...this.head(plane, line, 0.24 * apart));
     }
-    const colour = isAlone ? "#7a8797" : "#ffffff";
-    const material = { color: colour, transparent: true, opacity: isAlone ? 0.9 : 0.75 };
-    const geometryOf = (points) => new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(points), 3));
-    this.group.add(new LineSegments(geometryOf(ends), new LineBasicMaterial(material)));
-    this.group.add(new Mesh(geometryOf(heads), new MeshBasicMaterial({ ...material, side: DoubleSide })));
+    const colourAt = (x, y) => {
+      if (!values) return [0.2, 0.24, 0.31];
+      const [i, j] = [x, y].map((c, d) => Math.min(plane.points[d] - 1, Math.max(0, Math.floor(((c - plane.lower[d]) / (plane.upper[d] - plane.lower[d])) * plane.points[d]))));
+      const share = (values[j * plane.points[0] + i] - scale.low) / (scale.high - scale.low);
+      return isLight(scale.map, share) ? [0.01, 0.02, 0.03] : [1, 1, 1];
+    };
+    const geometryOf = (points) => {
+      const colours = [];
+      for (let k = 0; k < points.length; k += 3) colours.push(...colourAt(points[k + plane.axes[0]], points[k + plane.axes[1]]));
+      return new BufferGeometry()
+        .setAttribute("position", new BufferAttribute(new Float32Array(points), 3))
+        .setAttribute("color", new BufferAttribute(new Float32Array(colours), 3));
+    };
+    const material = { vertexColors: true, transparent: true, opacity: values ? 0.75 : 0.9 };
+    return [
+      new LineSegments(geometryOf(ends), new LineBasicMaterial(material)),
+      new Mesh(geometryOf(heads), new MeshBasicMaterial({ ...material, side: DoubleSide })),
+    ];
   }
 
   // An arrow head in the middle of a line.

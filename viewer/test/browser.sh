@@ -4,12 +4,11 @@
 # browser.sh APPS [FOLDER]: reports in headless Chromium: runs the quickstart's scene, eight vesicles and a run that blows up with the apps in
 # APPS, opens their pages, and leaves pictures in FOLDER (default: out/browser). Needs Chromium, and the packages of viewer/.
 set -euo pipefail
+apps=$(realpath "${1:?the folder of the apps}")
+folder=$(realpath -m "${2:-$(dirname "$0")/../../out/browser}")
 cd "$(dirname "$0")/.."
-apps=$(realpath "$1")
-folder=${2:-../out/browser}
 rm -rf "$folder"
 mkdir -p "$folder"
-folder=$(realpath "$folder")
 
 "$apps/shear_flow" ../scenes/tank_treading_coarse.toml --out "$folder/tank_treading" --quiet
 "$apps/vesicles" ../scenes/eight_vesicles.toml --out "$folder/eight" --quiet --set "domain.cells=[40, 36, 40]" --set mesh.latitudes=24 \

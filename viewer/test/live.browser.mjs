@@ -35,8 +35,15 @@ test("a run under way is shown as it goes on", async () => {
   let simulation;
   try {
     const address = await new Promise((done, fail) => {
-      server.stdout.on("data", (text) => done(/http:\S+/.exec(text)[0]));
-      server.on("exit", () => fail(new Error("the server has ended")));
+      let said = "";
+      const listen = (text) => {
+        said += text;
+        const found = /http:\S+(?= )/.exec(said);
+        if (found) done(found[0]);
+      };
+      server.stdout.on("data", listen);
+      server.stderr.on("data", (text) => (said += text));
+      server.on("exit", () => fail(new Error(`the server has ended: ${said}`)));
     });
     assert.match((await textOf(address)).text, /nothing to see yet/);
     assert.equal((await textOf(address, { Host: "evil.example" })).status, 403);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <ranges>
+#include <span>
 #include <string_view>
 
 #include "report/thinning.h"
@@ -44,7 +44,7 @@ DiagnosticsRows diagnostics_rows(const std::string& text, std::size_t most_bytes
   rows.values.resize(rows.columns.size());
   std::vector<std::vector<std::string_view>> times;  // the rows of a step
   std::string_view step;
-  for (const std::string_view line : lines | std::views::drop(1)) {
+  for (const std::string_view line : std::span(lines).subspan(1)) {
     if (static_cast<std::size_t>(std::ranges::count(line, ',')) + 1 != rows.columns.size() || line.empty()) continue;
     const std::string_view of_row = line.substr(0, line.find(','));
     if (times.empty() || of_row != step) times.emplace_back();

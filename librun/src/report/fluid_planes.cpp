@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <utility>
 
 #include "files/hdf5_file.h"
 #include "report/thinning.h"
@@ -149,33 +151,47 @@ void try_to(std::vector<std::string>& missing, const std::function<void()>& read
   }
 }
 
+using Files = std::vector<std::filesystem::path>;
+
+// That of the first snapshot that can be read.
+std::optional<Box> box_of(const Files& files, std::vector<std::string>& missing) {
+  std::optional<Box> box;
+  for (std::size_t i = 0; i < files.size() && !box; ++i)
+    try_to(missing, [&] { box = read_box(Hdf5File(files[i], Hdf5File::Mode::read), files[i].filename().string()); });
+  return box;
+}
+
+// The cuts of a snapshot across these axes.
+std::vector<Cut> read_cuts(const Hdf5File& file, const std::string& name, const Box& box, const std::vector<int>& axes,
+                           const StoredRun& run) {
+  if (read_box(file, name).cells != box.cells) throw FileError(name + ": has another grid than the others");
+  std::vector<Cut> cuts;
+  cuts.reserve(axes.size());
+  for (const int axis : axes) cuts.push_back(cut(file, box, axis, is_mirrored(run, axis)));
+  return cuts;
+}
+
 }  // namespace
 
 FluidPlanes read_fluid_planes(const StoredRun& run, std::size_t most_bytes) {
   FluidPlanes fluid;
   fluid.stored = run.fluid.size();
-  if (run.fluid.empty()) return fluid;
-  std::optional<Box> box;
-  std::vector<std::filesystem::path> files;
-  for (const auto& [step, file] : run.fluid) files.push_back(file);
-  for (std::size_t i = 0; i < files.size() && !box; ++i)
-    try_to(fluid.missing,
-           [&] { box = read_box(Hdf5File(files[i], Hdf5File::Mode::read), files[i].filename().string()); });
+  Files files;
+  files.reserve(run.fluid.size());
+  for (const auto& entry : run.fluid) files.push_back(entry.second);
+  const std::optional<Box> box = box_of(files, fluid.missing);
   if (!box) return fluid;
-  std::size_t of_all = 0;
-  for (int axis = 0; axis < 3; ++axis) of_all += bytes_of(*box, axis);
-  const bool all = of_all * files.size() <= most_bytes;
-  std::vector<int> axes = {1};
-  if (all) axes = {1, 0, 2};
-  const std::size_t fit = most_bytes / (all ? of_all : bytes_of(*box, 1));
-  std::vector<std::vector<Cut>> cuts(axes.size());
-  for (const std::size_t i : evenly_chosen(files.size(), std::max<std::size_t>(1, fit)))
+  std::size_t bytes = bytes_of(*box, 0) + bytes_of(*box, 1) + bytes_of(*box, 2);
+  std::vector<int> axes = {1, 0, 2};
+  if (bytes * files.size() > most_bytes) {
+    axes = {1};
+    bytes = bytes_of(*box, 1);
+  }
+  std::vector<std::vector<Cut>> cuts(axes.size());  // of each axis, of each snapshot
+  for (const std::size_t i : evenly_chosen(files.size(), std::max<std::size_t>(1, most_bytes / bytes)))
     try_to(fluid.missing, [&] {
       const Hdf5File file(files[i], Hdf5File::Mode::read);
-      if (read_box(file, files[i].filename().string()).cells != box->cells)
-        throw FileError(fmt::format("{}: has another grid than the others", files[i].filename().string()));
-      std::vector<Cut> of_snapshot;
-      for (const int axis : axes) of_snapshot.push_back(cut(file, *box, axis, is_mirrored(run, axis)));
+      std::vector<Cut> of_snapshot = read_cuts(file, files[i].filename().string(), *box, axes, run);
       fluid.times.push_back(file.read_number("/", "time"));
       for (std::size_t a = 0; a < axes.size(); ++a) cuts[a].push_back(std::move(of_snapshot[a]));
     });

@@ -66,7 +66,8 @@ Json quantities_of(const DiagnosticsRows& rows) {
   for (const Quantity& quantity : vesicle_quantities())
     if (rows.column(std::string(quantity.name)) != nullptr) add(quantity);
   for (const std::string& name : rows.columns)
-    if (name != "step" && name != "time" && name != "vesicle" && !all.contains(name)) add(quantity_of(vesicle_quantities(), name));
+    if (name != "step" && name != "time" && name != "vesicle" && !all.contains(name))
+      add(quantity_of(vesicle_quantities(), name));
   return all;
 }
 

@@ -268,9 +268,10 @@ std::string about_section(const ReportContents& contents, bool has_viewer) {
   const auto say = [&](const std::string& sentence) { items += fmt::format("<li>{}</li>\n", sentence); };
   if (!has_viewer)
     say("This page has no view to turn and no plots to point at: the program was built without the viewer. To have it, "
-        "install Node and "
-        "npm, run <code>scripts/viewer.sh</code>, build again, and write the page anew with <code>report "
-        "FOLDER</code>.");
+        "run "
+        "<code>scripts/install-deps.sh --viewer</code> and <code>scripts/viewer.sh</code>, build again, and write the "
+        "page anew "
+        "with <code>report FOLDER</code>.");
   if (!contents.membranes.frames.empty()) {
     say(fmt::format("It holds {} of the {} snapshots of the membranes{}.", contents.membranes.frames.size(),
                     course.stored, contents.membranes.frames.size() < course.stored ? ", chosen evenly" : ""));

@@ -34,30 +34,31 @@ void check(const ReportOptions& options) {
     throw std::invalid_argument(fmt::format("ReportOptions::bytes = {}: must be >= {}", options.bytes, least_bytes));
 }
 
-// What may stand in a page of that size beside what always does.
-std::size_t bytes_for_data(const ReportOptions& options, std::size_t always) {
-  return options.bytes > always + least_bytes / 2 ? options.bytes - always : least_bytes / 2;
-}
-
 std::size_t vesicles_of(const StoredRun& run) {
   const auto found = run.summary.find("vesicles");
   return found != run.summary.end() && found->is_array() ? std::max<std::size_t>(1, found->size()) : 1;
 }
 
+// Text of base64 is a third longer than the bytes.
+std::size_t binary(std::size_t text) {
+  return text / 4 * 3;
+}
+
+// All but the membranes' bytes, which take what is left.
 ReportContents contents_of(StoredRun run, const ReportOptions& options, std::size_t bytes) {
-  // Text of base64 is a third longer than the bytes.
-  const auto binary = [](std::size_t text) { return text / 4 * 3; };
   ReportContents contents{.run = std::move(run), .diagnostics = {}, .course = {}, .membranes = {}, .fluid = {}};
   contents.diagnostics = diagnostics_rows(contents.run.diagnostics, bytes / share_of_rows);
   contents.fluid = read_fluid_planes(contents.run, binary(bytes / share_of_fluid));
-  std::size_t used = contents.diagnostics.text.size();
-  for (const FluidPlanes::Plane& plane : contents.fluid.planes) used += base64_size(plane.bytes.size());
-  const std::size_t left = binary(bytes > used ? bytes - used : 0);
-  const std::size_t fit = left / (least_bytes_of_vesicle * vesicles_of(contents.run));
+  const std::size_t fit = binary(bytes) / (least_bytes_of_vesicle * vesicles_of(contents.run));
   contents.course =
       read_membranes(contents.run, std::clamp<std::size_t>(fit, 1, static_cast<std::size_t>(options.most_frames)));
-  contents.membranes = pack_membranes(contents.course, left);
   return contents;
+}
+
+// What the packing itself takes beside its bytes: a time and a step of each frame, the widths of each field of each vesicle.
+std::size_t bytes_of_description(const MembraneCourse& course) {
+  constexpr std::size_t of_frame = 40, of_vesicle = 500, others = 4000;
+  return of_frame * course.frames.size() + of_vesicle * course.latitudes.size() + others;
 }
 
 // A page does nothing but run this one script, and asks nobody for anything; a live one asks its own server.
@@ -99,29 +100,35 @@ std::string view_section(const ReportContents& contents) {
   return text + "</div></section>\n";
 }
 
-std::string sections(const ReportContents& contents, bool has_viewer) {
-  return heading(contents.run) + "<main>" + view_section(contents) + results_section(contents.run) +
-         trust_section(contents.run) + phases_section(contents.run) + scene_section(contents.run) +
-         repeat_section(contents.run) + about_section(contents, has_viewer) + "</main>\n";
+std::string data_of(const ReportContents& contents, bool live) {
+  return json_in_html(page_data(contents, live).dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace));
 }
 
-std::string page(const ReportContents& contents, const ReportOptions& options) {
-  const std::string viewer = embedded_viewer();
-  const std::string name = contents.run.folder.filename().string();
+std::string page(StoredRun run, const ReportOptions& options) {
+  const std::string viewer = embedded_viewer(), style = embedded_style();
+  const std::size_t always = viewer.size() + style.size();
+  const auto left_of = [&](std::size_t used) {
+    return options.bytes > used + least_bytes / 4 ? options.bytes - used : least_bytes / 4;
+  };
+  ReportContents contents = contents_of(std::move(run), options, left_of(always));
+  const StoredRun& stored = contents.run;
+  const std::string name = stored.folder.filename().string();
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" "
       "content=\"{}\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta "
       "name=\"generator\" "
-      "content=\"Vesiflow {}\">\n<title>{} – Vesiflow report</title>\n<style>{}</style></head>\n<body>\n",
-      policy(options.live, viewer.empty() ? "" : embedded_viewer_sha256()), VESIFLOW_VERSION, escaped(name),
-      embedded_style());
-  text += sections(contents, !viewer.empty());
+      "content=\"Vesiflow {}\">\n<title>{} \u2013 Vesiflow report</title>\n<style>{}</style></head>\n<body>\n",
+      policy(options.live, viewer.empty() ? "" : embedded_viewer_sha256()), VESIFLOW_VERSION, escaped(name), style);
+  text += heading(stored) + "<main>" + view_section(contents) + results_section(stored) + trust_section(stored) +
+          phases_section(stored) + scene_section(stored) + repeat_section(stored);
   if (!viewer.empty()) {
-    const std::string json =
-        page_data(contents, options.live).dump(-1, ' ', /*ensure_ascii=*/true, Json::error_handler_t::replace);
-    text += "<script type=\"application/json\" id=\"report-data\">" + json_in_html(json) + "</script>\n<script>" +
-            viewer + "</script>\n";
+    const std::size_t others = data_of(contents, options.live).size() + bytes_of_description(contents.course);
+    contents.membranes = pack_membranes(contents.course, binary(left_of(text.size() + viewer.size() + others)));
   }
+  text += about_section(contents, !viewer.empty()) + "</main>\n";
+  if (!viewer.empty())
+    text += "<script type=\"application/json\" id=\"report-data\">" + data_of(contents, options.live) +
+            "</script>\n<script>" + viewer + "</script>\n";
   return text + "</body></html>\n";
 }
 
@@ -136,11 +143,7 @@ std::string report_of(const std::filesystem::path& directory, const ReportOption
   // Of a folder given as "." or "out/" too, the name.
   std::error_code keeps_the_name_given;
   const std::filesystem::path whole = std::filesystem::canonical(directory, keeps_the_name_given);
-  StoredRun run = read_stored_run(keeps_the_name_given ? directory : whole);
-  // The scene and the tables stand in the page twice, for readers and for the viewer.
-  const std::size_t always = embedded_viewer().size() + embedded_style().size() +
-                             2 * (run.scene.size() + run.plan.size()) + 3 * run.summary.dump().size() + 60'000;
-  return page(contents_of(std::move(run), options, bytes_for_data(options, always)), options);
+  return page(read_stored_run(keeps_the_name_given ? directory : whole), options);
 }
 
 void write_report(const std::filesystem::path& directory, const std::filesystem::path& file,

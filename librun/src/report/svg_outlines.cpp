@@ -15,7 +15,9 @@
 namespace vesiflow::run {
 namespace {
 
-constexpr int latitudes = 32, longitudes = 64;  // of the mesh that is cut
+// Of the meshes that are cut, where vesicles are few and large on the page, and where they are many.
+constexpr int fine_latitudes = 32, coarse_latitudes = 16;
+constexpr std::size_t few_vesicles = 8;
 constexpr std::size_t most_outlines = 128;
 
 struct Point {
@@ -27,7 +29,8 @@ using Outline = std::vector<Point>;
 // cut joins two of its edges, and each edge is one of two triangles.
 class Cutter {
  public:
-  explicit Cutter(const Eigen::ArrayXXd& points) : points_(points) {
+  Cutter(const Eigen::ArrayXXd& points, int latitudes) : points_(points), longitudes_(2 * latitudes) {
+    const int longitudes = longitudes_;
     y_ = points.col(1).mean() + 1e-9;  // not through markers
     for (int i = 0; i < longitudes; ++i) {
       const int e = (i + 1) % longitudes;
@@ -61,7 +64,7 @@ class Cutter {
  private:
   using Edge = std::pair<int, int>;
 
-  static int at(int j, int i) { return j * longitudes + i; }
+  int at(int j, int i) const { return j * longitudes_ + i; }
   static Edge edge_of(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
   void cut(const std::array<int, 3>& corners) {
@@ -90,19 +93,21 @@ class Cutter {
   }
 
   const Eigen::ArrayXXd& points_;
+  int longitudes_;
   double y_ = 0.0;
   std::map<Edge, std::vector<Edge>> next_;
 };
 
 std::vector<Outline> outlines_of(const MembraneCourse::Frame& frame) {
-  const vesicle::SphereGrid grid(latitudes, longitudes);
+  const int latitudes = frame.vesicles.size() <= few_vesicles ? fine_latitudes : coarse_latitudes;
+  const vesicle::SphereGrid grid(latitudes);
   std::vector<Outline> all;
   for (std::size_t v = 0; v < std::min(frame.vesicles.size(), most_outlines); ++v) {
     const vesicle::Coefficients coefficients = complex_coefficients(frame.vesicles[v].leftCols(3));
     const vesicle::SphericalHarmonics harmonics(coefficients.degrees(), grid);
     Eigen::ArrayXXd points(grid.size(), 3);
     harmonics.synthesis(coefficients, points);
-    for (Outline& outline : Cutter(points).outlines()) all.push_back(std::move(outline));
+    for (Outline& outline : Cutter(points, latitudes).outlines()) all.push_back(std::move(outline));
   }
   return all;
 }

@@ -21,8 +21,8 @@ Eigen::ArrayXXd fields(const vesicle::SphereGrid& grid, double time) {
     for (int i = 0; i < grid.longitudes(); ++i) {
       const double theta = grid.colatitude()[j], phi = grid.longitude(i);
       const double x = std::sin(theta) * std::cos(phi), y = std::sin(theta) * std::sin(phi), z = std::cos(theta);
-      values.row(grid.index(i, j)) << 5.0 + 1.3 * x + 0.2 * y * z, 0.8 * y - 0.1 * x * x + time, 0.7 * z + 0.05 * std::exp(x - y),
-          std::exp(std::sin(2.0 * x - time) + 0.5 * y * z);
+      values.row(grid.index(i, j)) << 5.0 + 1.3 * x + 0.2 * y * z, 0.8 * y - 0.1 * x * x + time,
+          0.7 * z + 0.05 * std::exp(x - y), std::exp(std::sin(2.0 * x - time) + 0.5 * y * z);
     }
   return values;
 }
@@ -34,14 +34,16 @@ RealCoefficients coefficients_of(const vesicle::SphericalHarmonics& harmonics, d
 }
 
 // Root mean square over the sphere of the difference of two expansions, by quadrature on the grid.
-double difference(const vesicle::SphericalHarmonics& harmonics, const RealCoefficients& a, const RealCoefficients& b, int first, int count) {
+double difference(const vesicle::SphericalHarmonics& harmonics, const RealCoefficients& a, const RealCoefficients& b,
+                  int first, int count) {
   Eigen::ArrayXXd values(harmonics.grid().size(), a.cols());
   harmonics.synthesis(complex_coefficients(a - b), values);
   double sum = 0.0;
   const vesicle::SphereGrid& grid = harmonics.grid();
   for (int j = 0; j < grid.latitudes(); ++j)
     for (int i = 0; i < grid.longitudes(); ++i)
-      sum += grid.weight()[j] * grid.longitude_spacing() * values.row(grid.index(i, j)).segment(first, count).square().sum();
+      sum += grid.weight()[j] * grid.longitude_spacing() *
+             values.row(grid.index(i, j)).segment(first, count).square().sum();
   return std::sqrt(sum / (4.0 * std::numbers::pi));
 }
 

@@ -30,7 +30,8 @@ TEST(Thinning, KeepsTheEndsAndIsEven) {
   ASSERT_EQ(kept.size(), 37U);
   EXPECT_EQ(kept.front(), 0U);
   EXPECT_EQ(kept.back(), 999U);
-  for (std::size_t k = 1; k < kept.size(); ++k) EXPECT_NEAR(static_cast<double>(kept[k] - kept[k - 1]), 999.0 / 36.0, 1.0);
+  for (std::size_t k = 1; k < kept.size(); ++k)
+    EXPECT_NEAR(static_cast<double>(kept[k] - kept[k - 1]), 999.0 / 36.0, 1.0);
 }
 
 // The vectors of RFC 4648, section 10.
@@ -54,7 +55,9 @@ TEST(EscapedText, LeavesNoMarkup) {
 TEST(DiagnosticsRows, KeepsAllVesiclesOfATime) {
   std::string text = "step,time,vesicle,a\n";
   for (int t = 0; t < 100; ++t)
-    for (int v = 0; v < 3; ++v) text += std::to_string(t) + "," + std::to_string(0.5 * t) + "," + std::to_string(v) + "," + std::to_string(t * v) + "\n";
+    for (int v = 0; v < 3; ++v)
+      text += std::to_string(t) + "," + std::to_string(0.5 * t) + "," + std::to_string(v) + "," +
+              std::to_string(t * v) + "\n";
   text += "100,50,0\n";  // a row that was cut off
   const DiagnosticsRows all = diagnostics_rows(text, 1'000'000);
   EXPECT_EQ(all.stored_times, 100U);
@@ -96,7 +99,8 @@ class FluidPlanesTest : public RunInFolder {
     for (int k = 0; k < n[2]; ++k)
       for (int j = 0; j < n[1]; ++j)
         for (int i = 0; i < n[0]; ++i) {
-          const double x = lower[0] + 2.0 * (i + 0.5) / n[0], y = lower[1] + 4.0 * (j + 0.5) / n[1], z = lower[2] + 6.0 * (k + 0.5) / n[2];
+          const double x = lower[0] + 2.0 * (i + 0.5) / n[0], y = lower[1] + 4.0 * (j + 0.5) / n[1],
+                       z = lower[2] + 6.0 * (k + 0.5) / n[2];
           for (const double u : {z, 2.0 * x, y}) velocity.push_back(static_cast<float>(factor * u));
           pressure.push_back(static_cast<float>(x - 3.0 * z));
         }
@@ -106,7 +110,8 @@ class FluidPlanesTest : public RunInFolder {
     file.attribute("/", "lower", std::vector<double>(lower.begin(), lower.end()));
     file.attribute("/", "upper", std::vector<double>{1.0, 2.0, 3.0});
     file.attribute("/", "cells", std::vector<double>(n.begin(), n.end()));
-    const Hdf5File::Shape shape = {static_cast<std::uint64_t>(n[2]), static_cast<std::uint64_t>(n[1]), static_cast<std::uint64_t>(n[0])};
+    const Hdf5File::Shape shape = {static_cast<std::uint64_t>(n[2]), static_cast<std::uint64_t>(n[1]),
+                                   static_cast<std::uint64_t>(n[0])};
     file.write("/velocity", velocity.data(), {shape[0], shape[1], shape[2], 3});
     file.write("/pressure", pressure.data(), shape);
     file.close();
@@ -132,7 +137,9 @@ TEST_F(FluidPlanesTest, HasTheFluidWhereItSays) {
   EXPECT_EQ(fluid.times, (std::vector<double>{0.0, 0.5}));
   ASSERT_EQ(fluid.planes.size(), 3U);
   for (const FluidPlanes::Plane& plane : fluid.planes) {
-    const std::array<int, 2> axes = plane.axis == 0 ? std::array{1, 2} : plane.axis == 1 ? std::array{0, 2} : std::array{0, 1};
+    const std::array<int, 2> axes = plane.axis == 0   ? std::array{1, 2}
+                                    : plane.axis == 1 ? std::array{0, 2}
+                                                      : std::array{0, 1};
     for (int j = 0; j < plane.points[1]; ++j)
       for (int i = 0; i < plane.points[0]; ++i) {
         std::array<double, 3> at = {};
@@ -161,7 +168,8 @@ TEST_F(FluidPlanesTest, MirrorsAndFineGrids) {
   EXPECT_EQ(plane.axis, 1);
   EXPECT_EQ(plane.position, -2.0);
   EXPECT_EQ(plane.points, (std::array{64, 64}));
-  EXPECT_NEAR(value(plane, 0, 2, 10, 20), -2.0 + 4.0 * 0.5 / 6.0, 0.51 * plane.velocity_quantum);  // the layer beside the mirror
+  EXPECT_NEAR(value(plane, 0, 2, 10, 20), -2.0 + 4.0 * 0.5 / 6.0,
+              0.51 * plane.velocity_quantum);  // the layer beside the mirror
   EXPECT_NEAR(value(plane, 0, 0, 10, 20), -3.0 + 6.0 * 20.5 / 64.0, 0.51 * plane.velocity_quantum);
 }
 
@@ -198,8 +206,8 @@ TEST(SvgOutlines, AreCutsThroughTheMiddle) {
   for (int j = 0; j < latitudes; ++j)
     for (int i = 0; i < grid.longitudes(); ++i) {
       const double theta = grid.colatitude()[j], phi = grid.longitude(i);
-      values.row(grid.index(i, j)).head(3) << 2.0 * std::sin(theta) * std::cos(phi) + 7.0, 0.5 * std::sin(theta) * std::sin(phi) - 1.0,
-          1.0 * std::cos(theta) + 3.0;
+      values.row(grid.index(i, j)).head(3) << 2.0 * std::sin(theta) * std::cos(phi) + 7.0,
+          0.5 * std::sin(theta) * std::sin(phi) - 1.0, 1.0 * std::cos(theta) + 3.0;
     }
   vesicle::Coefficients coefficients;
   harmonics.analysis(values, coefficients);
