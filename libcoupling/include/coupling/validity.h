@@ -50,6 +50,7 @@ constexpr double largest_reynolds_number = 10.0;  ///< that has been compared wi
 
 constexpr double thin_sharp_ratio =
     0.5;  ///< a thinner fluid inside of sharp membranes allows less inertia (docs/coupling.md)
+
 /// To which Reynolds number sharp membranes are quiet with inertia, by the least ratio of viscosities, if that is below
 /// thin_sharp_ratio: 1 down to 0.2 (which blows up at 3 on h = R/4), and below that a tenth of the ratio
 /// (0.05 and 0.1 blow up at 0.02 and 0.1 in short steps with sigma0 = 20 000; with 2000 they are quiet to Re = ratio).
