@@ -25,7 +25,7 @@ STUDIES = r"(?:validation|bench)/[a-z0-9_/]+\.(?:md|py|sh|json|toml|h|cpp)\b"
 def files():
     folders = [p for p in ROOT.iterdir() if p.is_dir() and p.name not in ("build", "out") and not p.name.startswith(".")]
     yield from (p for p in ROOT.iterdir() if p.is_file())
-    yield from (p for folder in folders for p in folder.rglob("*") if p.is_file())
+    yield from (p for folder in folders for p in folder.rglob("*") if p.is_file() and "node_modules" not in p.parts)
 
 
 def prose(page):

@@ -2,10 +2,13 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what building and running the programs and plotting their results need; silent when nothing is missing.
-# usage: scripts/install-deps.sh [--python | --test | --dev]
+# usage: scripts/install-deps.sh [--python | --test | --dev | --viewer | --browser]
 #   --python also what the Python package is compiled and installed with
 #   --test   the same, and what the tests and benchmarks need, and SUNDIALS, whose Debian package brings PETSc, MPI and Fortran along
 #   --dev    also the tools of the format, script and documentation checks, the fuzz targets and the sanitizers
+#   --viewer also Node and npm, which scripts/viewer.sh makes the viewer of the reports with. Debian 12 has npm as 358 packages, more than all
+#            the others here, so that they come only when they are asked for
+#   --browser also these and Chromium, in which reports are tested
 # Knows Debian 12 and later; elsewhere it only checks, and names what is missing.
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
@@ -26,9 +29,27 @@ test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr doxygen mypy)
 dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr doxygen mypy)
 
+# Whatever their packages are called: Node of its makers brings npm along.
+add_unless_there() {
+  local package
+  for package in "$@"; do
+    [[ $package == nodejs ]] && command -v node >/dev/null && continue
+    command -v "$package" >/dev/null || packages+=("$package")
+  done
+  commands+=("${@/nodejs/node}")
+}
+
 case "${1:-}" in
   --python)
     packages+=("${python_packages[@]}")
+    shift
+    ;;
+  --viewer)
+    add_unless_there nodejs npm
+    shift
+    ;;
+  --browser)
+    add_unless_there nodejs npm chromium
     shift
     ;;
   --test | --dev)

@@ -18,11 +18,12 @@
 #   kills        validation/robustness/kills.py: 200 runs killed at any moment go on to the same bits
 #   faults       validation/robustness/faults.py: disks, permissions, descriptors and memory that run out
 #   hostile      validation/robustness/hostile_starts.py: starts that no one should choose
+#   browser      viewer/test/browser.sh: reports in headless Chromium, which this installs with Node where they are missing
 set -euo pipefail
 . "$(dirname "$0")/lib.sh"
 cd "$(dirname "$0")/.."
 
-checks=(x86-64-v2 x86-64-v3 x86-64-v4 native compilers bare sanitizers threads memory fuzz tidy docs coverage kills faults hostile)
+checks=(x86-64-v2 x86-64-v3 x86-64-v4 native compilers bare sanitizers threads memory fuzz tidy docs coverage kills faults hostile browser)
 for check in "$@"; do
   [[ " ${checks[*]} " == *" $check "* ]] || no_more_options "$check"
 done
@@ -84,6 +85,15 @@ cover() {
   grep '^lines:' build/coverage/gcovr.log
 }
 
+# Reports in a real browser, with the viewer of this tree in them.
+browse() {
+  scripts/install-deps.sh --browser
+  scripts/viewer.sh
+  build_for native
+  logged build/browser.log "Reports in Chromium" viewer/test/browser.sh build/nightly-native/apps out/browser
+  grep -E '^. (tests|pass|fail) |bytes; first frame' build/browser.log
+}
+
 perform() {
   case $1 in
     x86-64-v* | native)
@@ -113,6 +123,7 @@ perform() {
     coverage) cover ;;
     docs) scripts/docs.sh ;;
     kills | faults) validate "$1" ;;
+    browser) browse ;;
     hostile) validate hostile_starts --jobs "$(nproc)" ;;
   esac
 }

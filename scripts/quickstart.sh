@@ -17,6 +17,10 @@ no_more_options "$@"
 out=out/tank_treading_coarse
 
 scripts/install-deps.sh
+# Without Node, reports have plots and outlines but nothing to turn, and say how to get it.
+if { command -v node && command -v npm; } >/dev/null && [[ ! -e viewer/dist/viewer.js ]]; then
+  scripts/viewer.sh || echo "The report will have no viewer; that takes nothing from the results."
+fi
 logged build/release/configure.log "Configuring build/release" cmake --preset release
 logged build/release/build.log "Compiling shear_flow" cmake --build --preset release --target shear_flow
 build/release/apps/shear_flow scenes/tank_treading_coarse.toml --out "$out" --threads "$threads"
@@ -29,4 +33,5 @@ print(f"\nMembranes and flow for ParaView: {sys.argv[1]}/vesicle.xdmf and fluid.
 print(f"Steady tank-treading: inclination {vesicle['inclination_angle_deg']:.1f} degrees, "
       f"frequency {vesicle['tank_treading_frequency']:.3f}; expected: 27.7 degrees, 0.405. Keller & Skalak (1982), who take "
       "the vesicle for an ellipsoid of the same reduced volume: 27.0 degrees, 0.427.")
+print(f"\nReport, for any browser: {sys.argv[1]}/report.html")
 REPORT

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // vesiflow._run: librun for vesiflow/run.py, which documents it.
+#include "run/report.h"
 #include "run/run.h"
 
 #include <pybind11/stl.h>
@@ -153,6 +154,11 @@ PYBIND11_MODULE(_run, m) {
   set_logger();
   bind_scene(m);
   bind_simulation(m);
+  m.def("write_report", [](const std::string& folder, const std::string& file, int most_frames, bool live) {
+    const py::gil_scoped_release unlocked;
+    write_report(folder, file, {.most_frames = most_frames, .live = live});
+  });
+  m.def("report_has_viewer", [] { return report_has_viewer(); });
   m.def("version", [] { return std::string(version()); });
   m.def("built_with", [] { return std::string(built_with()); });
 }

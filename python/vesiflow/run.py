@@ -38,7 +38,8 @@ SceneSource = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scene"]
 #: Keys and values that override those of a scene: a dictionary, or words "key=value" as on the command line.
 Overrides = Union[Mapping[str, Any], Sequence[str], None]
 
-__all__ = ["Finished", "Scene", "Simulation", "built_with", "plan", "run", "run_all", "scene_keys", "set_threads", "threads", "version"]
+__all__ = ["Finished", "Scene", "Simulation", "built_with", "plan", "run", "run_all", "scene_keys", "set_threads", "threads", "version",
+           "write_report"]
 
 CHECKPOINT = "checkpoint.h5"
 
@@ -211,6 +212,20 @@ def scene_keys() -> list[tuple[str, str, str]]:
 def plan(scene: SceneSource, overrides: Overrides = None) -> str:
     """What a run of the scene will compute, in words, and what it will take."""
     return Scene(scene, overrides).plan()
+
+
+def write_report(folder: Union[str, "os.PathLike[str]"], file: Union[str, "os.PathLike[str]", None] = None, *, frames: int = 200,
+                 live: bool = False) -> Path:
+    """Writes the report of a run, under way or ended, and returns its path: one page of HTML that needs nothing else (docs/report.md).
+
+    file: the page; report.html in the folder unless given.
+    frames: snapshots of the membranes that the page holds at most, evenly chosen; 1 or more.
+    live: a page for a server on this machine, which it asks for news (`vesiflow view`).
+    Raises FileError when the folder holds no run or the file cannot be written, ValueError for frames below 1.
+    """
+    page = Path(folder) / "report.html" if file is None else Path(file)
+    _run.write_report(os.fspath(folder), os.fspath(page), frames, live)
+    return page
 
 
 def version() -> str:

@@ -83,6 +83,7 @@ struct VESIFLOW_RUN_EXPORT Scene : coupling::SimulationParameters {
     double vesicle_every = 0.5;       ///< snapshots of the membranes
     double fluid_every = 4.0;         ///< snapshots of the fluid
     double checkpoint_every = 1.0;    ///< checkpoints
+    bool report = true;               ///< output.report: a page at the end, see run/report.h
   } output;                           ///< what it writes, and when
 
   /// Of vesicles by number; it may be shorter than `vesicles`. Loading a scene reads VesicleParameters::surface from

@@ -53,6 +53,15 @@ void Hdf5File::attribute(const std::string&, const std::string&, const std::stri
 std::vector<double> Hdf5File::read(const std::string&) const {
   fail("no HDF5");
 }
+std::vector<double> Hdf5File::read_block(const std::string&, const Shape&, const Shape&) const {
+  fail("no HDF5");
+}
+Hdf5File::Shape Hdf5File::shape(const std::string&) const {
+  fail("no HDF5");
+}
+std::vector<double> Hdf5File::read_numbers(const std::string&, const std::string&, std::size_t) const {
+  fail("no HDF5");
+}
 std::uint64_t Hdf5File::size(const std::string&) const {
   fail("no HDF5");
 }

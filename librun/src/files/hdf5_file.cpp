@@ -247,11 +247,40 @@ std::vector<double> Hdf5File::read(const std::string& name) const {
   return read;
 }
 
-void Hdf5File::read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value) const {
+Hdf5File::Shape Hdf5File::shape(const std::string& name) const {
+  const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set.valid()) fail(name + " is missing or damaged");
+  const Handle space(H5Dget_space(set), H5Sclose);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  if (extent.empty() || H5Sget_simple_extent_dims(space, extent.data(), nullptr) < 0) fail(name + " is damaged");
+  return Shape(extent.begin(), extent.end());
+}
+
+std::vector<double> Hdf5File::read_block(const std::string& name, const Shape& start, const Shape& count) const {
+  const Shape all = shape(name);
+  bool inside = start.size() == all.size() && count.size() == all.size();
+  std::uint64_t values = 1;
+  for (std::size_t d = 0; inside && d < all.size(); ++d) {
+    inside = count[d] <= all[d] && start[d] <= all[d] - count[d];
+    values *= count[d];
+  }
+  if (!inside) fail(name + " is smaller than what is to be read of it");
+  const Handle set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle from(H5Dget_space(set), H5Sclose), to(simple_space(count), H5Sclose);
+  const std::vector<hsize_t> first(start.begin(), start.end()), extent(count.begin(), count.end());
+  std::vector<double> block(values);
+  if (H5Sselect_hyperslab(from, H5S_SELECT_SET, first.data(), nullptr, extent.data(), nullptr) < 0 ||
+      H5Dread(set, H5T_NATIVE_DOUBLE, to, from, H5P_DEFAULT, block.data()) < 0)
+    fail(name + " cannot be read: the file is damaged");
+  return block;
+}
+
+void Hdf5File::read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value,
+                              std::size_t count) const {
   const Handle attribute(H5Aopen_by_name(file_, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (!attribute.valid()) fail(fmt::format("{} of {} is missing or damaged", name, group));
   const Handle space(H5Aget_space(attribute), H5Sclose);
-  if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, value) < 0)
+  if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(count) || H5Aread(attribute, type, value) < 0)
     fail(fmt::format("{} of {} cannot be read: the file is damaged", name, group));
 }
 
@@ -265,6 +294,12 @@ std::int64_t Hdf5File::read_integer(const std::string& group, const std::string&
   std::int64_t value = 0;
   read_attribute(group, name, H5T_NATIVE_INT64, &value);
   return value;
+}
+
+std::vector<double> Hdf5File::read_numbers(const std::string& group, const std::string& name, std::size_t count) const {
+  std::vector<double> values(count);
+  read_attribute(group, name, H5T_NATIVE_DOUBLE, values.data(), count);
+  return values;
 }
 
 std::string Hdf5File::read_text(const std::string& group, const std::string& name) const {

@@ -52,11 +52,17 @@ class Hdf5File {
   void close();
 
   std::vector<double> read(const std::string& name) const;
+  /// A block of a data set: `count` values along each axis from `start` on. Fails unless the block lies in the data set.
+  std::vector<double> read_block(const std::string& name, const Shape& start, const Shape& count) const;
+  /// How many values along each axis.
+  Shape shape(const std::string& name) const;
   /// How many values a data set has.
   std::uint64_t size(const std::string& name) const;
   double read_number(const std::string& group, const std::string& name) const;
   std::int64_t read_integer(const std::string& group, const std::string& name) const;
   std::string read_text(const std::string& group, const std::string& name) const;
+  /// An attribute of that many numbers.
+  std::vector<double> read_numbers(const std::string& group, const std::string& name, std::size_t count) const;
 
   /// Whether its group, which must exist, has the object.
   bool exists(const std::string& name) const;
@@ -66,7 +72,8 @@ class Hdf5File {
   void write_values(const std::string& name, std::int64_t type, const void* values, const Shape& shape);
   void write_attribute(const std::string& group, const std::string& name, std::int64_t type, const Shape& shape,
                        const void* value);
-  void read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value) const;
+  void read_attribute(const std::string& group, const std::string& name, std::int64_t type, void* value,
+                      std::size_t count = 1) const;
 
   QuietHdf5 quiet_;  ///< failures become exceptions
   std::filesystem::path path_;

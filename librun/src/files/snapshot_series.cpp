@@ -45,6 +45,15 @@ void refuse_earlier_format(const std::filesystem::path& list) {
 
 }  // namespace
 
+std::map<long, std::filesystem::path> stored_snapshots(const std::filesystem::path& directory, std::string_view kind) {
+  std::map<long, std::filesystem::path> files;
+  const std::filesystem::path folder = directory / snapshots_folder;
+  if (!std::filesystem::exists(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (const auto step = step_of(entry.path().filename().string(), kind)) files[*step] = entry.path();
+  return files;
+}
+
 SnapshotSeries::SnapshotSeries(std::filesystem::path directory, Kind kind)
     : directory_(std::move(directory)), kind_(std::move(kind)) {
   try {
@@ -55,13 +64,11 @@ SnapshotSeries::SnapshotSeries(std::filesystem::path directory, Kind kind)
 }
 
 void SnapshotSeries::find() {
-  const std::filesystem::path list = directory_ / (kind_.name + ".h5"), folder = directory_ / snapshots_folder;
+  const std::filesystem::path list = directory_ / (kind_.name + ".h5");
   refuse_earlier_format(list);
   if (std::filesystem::exists(list)) listed_.reset();
-  if (!std::filesystem::exists(folder)) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (const auto step = step_of(entry.path().filename().string(), kind_.name))
-      steps_[*step] = Hdf5File(entry.path(), Hdf5File::Mode::read).read_number("/", "time");
+  for (const auto& [step, file] : stored_snapshots(directory_, kind_.name))
+    steps_[step] = Hdf5File(file, Hdf5File::Mode::read).read_number("/", "time");
 }
 
 std::string SnapshotSeries::file_of(long step) const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "files/hdf5_file.h"
 
@@ -53,5 +54,9 @@ class SnapshotSeries {
 
 /// The folder of the snapshots.
 inline constexpr const char* snapshots_folder = "snapshots";
+
+/// The snapshots of a kind that the folder of a run has, by step: also those that its list does not name yet.
+/// \throws std::filesystem::filesystem_error when the folder cannot be read
+std::map<long, std::filesystem::path> stored_snapshots(const std::filesystem::path& directory, std::string_view kind);
 
 }  // namespace vesiflow::run

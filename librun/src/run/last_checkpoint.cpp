@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include "files/shell_words.h"
 #include "run/checkpoint.h"
-#include "run/shell_words.h"
 
 namespace vesiflow::run {
 

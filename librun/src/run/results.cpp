@@ -21,6 +21,7 @@
 #include "files/snapshot_series.h"
 #include "files/text_of.h"
 #include "run/errors.h"
+#include "run/report.h"
 #include "run/vesicle_record.h"
 #include "system_message.h"
 
@@ -29,7 +30,7 @@ namespace {
 
 constexpr std::array result_files = {"summary.json", "diagnostics.csv", "vesicle.h5",    "vesicle.xdmf",
                                      "fluid.h5",     "fluid.xdmf",      "checkpoint.h5", "scene.toml",
-                                     "pictures",     "start.h5",        snapshots_folder};
+                                     "pictures",     "start.h5",        report_name,     snapshots_folder};
 
 long step_of_row(const std::string& row, const std::filesystem::path& file) {
   long step = 0;

@@ -16,6 +16,7 @@
 #include "run/errors.h"
 #include "run/last_checkpoint.h"
 #include "run/recorder.h"
+#include "run/report.h"
 #include "run/results.h"
 #include "run/run_folder.h"
 #include "run/run_log.h"
@@ -50,6 +51,7 @@ class Run {
   void finish(const std::string& status);
   void finish_stopped(const std::string& reason);
   [[noreturn]] void stop(const coupling::SimulationStopped& reason);
+  void report() const;
   void report_quality() const;
   void say_how_to_go_on(RunStatus end) const;
 
@@ -140,7 +142,21 @@ void Run::stop(const coupling::SimulationStopped& reason) {
       "stopped in step {} at t = {:.6g}: {}\n  likely cause: {}\n  last good checkpoint: {}", simulation_.steps() + 1,
       simulation_.time(), reason.what(), reason.advice(), checkpoint_.description());
   finish_stopped(message);
+  report();
   throw coupling::SimulationStopped(message, reason.advice());
+}
+
+// Everything else is on disk by now: a report that cannot be written is no reason for the run to fail.
+void Run::report() const {
+  if (!simulation_.scene().output.report) return;
+  const std::filesystem::path file = folder_.path() / report_name;
+  try {
+    folder_.require_held();
+    write_report(folder_.path(), file);
+    if (!options_.quiet) spdlog::info("report in {}", (options_.directory / report_name).string());
+  } catch (const std::exception& reason) {
+    spdlog::warn("there is no report: {}", reason.what());
+  }
 }
 
 void Run::fail(const FileError& error) {
@@ -239,6 +255,7 @@ RunStatus Run::execute() {
   const RunStatus end = take_steps();
   if (end != RunStatus::completed) recorder_->write_what_is_due(true, *log_);
   finish(end_of(end).name);
+  report();
   report_quality();
   if (end != RunStatus::completed) say_how_to_go_on(end);
   return end;

@@ -39,6 +39,7 @@ void visit(Scene::Output& output, ParameterVisitor& v) {
   v.number("output.vesicle_every", output.vesicle_every, Range::from(0.0));
   v.number("output.fluid_every", output.fluid_every, Range::from(0.0));
   v.number("output.checkpoint_every", output.checkpoint_every, Range::from(0.0));
+  v.boolean("output.report", output.report);
 }
 
 }  // namespace

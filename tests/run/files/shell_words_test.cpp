@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Vesiflow authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "run/shell_words.h"
+#include "files/shell_words.h"
 
 #include <gtest/gtest.h>
 
