@@ -112,7 +112,10 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return 0
     if words[0] not in COMMANDS:
         return _failed(2, f"there is no command {words[0]!r}: there are {', '.join(COMMANDS)}")
-    return COMMANDS[words[0]](words[1:])
+    try:
+        return COMMANDS[words[0]](words[1:])
+    except ImportError as error:
+        return _failed(1, error)
 
 
 if __name__ == "__main__":

@@ -35,8 +35,8 @@ from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .fluid import Grid, Velocity  # first: it says what is missing where nothing is built
 from . import _coupling
-from .fluid import Grid, Velocity
 from .progress import ProgressBar
 from .table import Table
 

@@ -22,7 +22,12 @@ from typing import Callable, NamedTuple, Optional, Sequence, TypeVar, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _fluid
+from .errors import not_built
+
+try:
+    from . import _fluid
+except ImportError as error:
+    raise not_built(error) from None
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]

@@ -29,7 +29,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _coupling, _run, coupling
+from . import coupling  # first: it says what is missing where nothing is built
+from . import _run
 from .coupling import Flow, VectorFunction, as_flow, flattened, set_threads, threads
 from .errors import SceneError
 from .results import Run

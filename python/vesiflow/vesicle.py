@@ -27,8 +27,12 @@ from typing import NamedTuple, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _vesicle
-from .errors import FileError
+from .errors import FileError, not_built
+
+try:
+    from . import _vesicle
+except ImportError as error:
+    raise not_built(error) from None
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
