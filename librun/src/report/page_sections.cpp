@@ -103,15 +103,16 @@ const char* status_class(const std::string& status) {
   return "open";
 }
 
+// From the folder itself, so that the page names no path of the machine that it was made on.
 std::string command_to_repeat(const StoredRun& run) {
   const std::string program = run.text("program").empty() ? "vesicles" : run.text("program");
-  const std::string folder = run.folder.string();
-  std::vector<std::string> words = {program, folder + "/scene.toml"};
-  if (at(run.summary, "started_from").is_object()) words = {program, "--restart", folder + "/start.h5"};
-  words.insert(words.end(), {"--out", folder + "_again"});
+  const std::string name = run.folder.filename().string();
+  std::vector<std::string> words = {program, "scene.toml"};
+  if (at(run.summary, "started_from").is_object()) words = {program, "--restart", "start.h5"};
+  words.insert(words.end(), {"--out", "../" + name + "_again"});
   if (const Json& threads = at(run.summary, "threads"); threads.is_number_integer())
     words.insert(words.end(), {"--threads", threads.dump()});
-  return shell_line(words);
+  return shell_line(std::vector<std::string>{"cd", name}) + "\n" + shell_line(words);
 }
 
 }  // namespace
@@ -171,10 +172,10 @@ std::string results_section(const StoredRun& run) {
     if (!known.contains(name)) row(quantity_of(vesicle_quantities(), name));
   return section(
       "results", "What came out",
-      fmt::format(
-          "<p>Numbers at t = {}. Lengths are in effective radii r, times in units of 1/shear rate, stresses in "
-          "viscosity/time.</p>\n<div class=\"wide\"><table><thead><tr>{}</tr></thead><tbody>{}</tbody></table></div>\n",
-          number(at(run.summary, "time")), head, rows));
+      fmt::format("<p>Numbers at t = {}. Lengths are in effective radii r, times in units of 1/shear rate, stresses in "
+                  "viscosity/time.</p>\n<div "
+                  "class=\"wide\"><table{}><thead><tr>{}</tr></thead><tbody>{}</tbody></table></div>\n",
+                  number(at(run.summary, "time")), vesicles.size() == 1 ? " class=\"single\"" : "", head, rows));
 }
 
 std::string trust_section(const StoredRun& run) {
