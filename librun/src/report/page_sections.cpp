@@ -237,13 +237,15 @@ std::string phases_section(const StoredRun& run) {
 
 std::string scene_section(const StoredRun& run) {
   std::string body;
-  if (!run.plan.empty())
-    body += fmt::format("<h3>Plan</h3><pre class=\"text\" tabindex=\"0\">{}</pre>\n", escaped(run.plan));
-  if (!run.scene.empty())
-    body += fmt::format(
-        "<details><summary>The scene with every key, as it was run</summary><pre class=\"text\" "
-        "tabindex=\"0\">{}</pre></details>\n",
-        escaped(run.scene));
+  const auto add = [&](const char* title, const std::string& text) {
+    if (!text.empty())
+      body += fmt::format("<details><summary>{}</summary><pre class=\"text\" tabindex=\"0\">{}</pre></details>\n",
+                          title, escaped(text));
+  };
+  add("The scene with every key, as it was run", run.scene);
+  add("Its plan, as the program that made this page plans it: resolution, what each step computes and skips, and what "
+      "it takes",
+      run.plan);
   return section("scene", "What was asked", body.empty() ? "<p>The folder has no scene.</p>\n" : body);
 }
 

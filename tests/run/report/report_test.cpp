@@ -46,9 +46,9 @@ class Report : public RunInFolder {
 TEST_F(Report, IsWrittenAtTheEndOfARun) {
   run_scene(small_scene({"time.end=1/12", "output.vesicle_every=1/48"}), at("run"));
   const std::string text = page();
-  for (const char* part :
-       {"completed", "What came out", "How far it can be trusted", "Where the time went", "What was asked",
-        "How to repeat it", "Content-Security-Policy", "t = 0.08333", "class=\"membrane\"", "inclination"})
+  for (const char* part : {"completed", "What came out", "How far it can be trusted", "Where the time went",
+                           "What was asked", "How to repeat it", "Content-Security-Policy", "t = 0.08333", "Its plan",
+                           "tension number g", "class=\"membrane\"", "inclination"})
     EXPECT_TRUE(has(text, part)) << part;
   EXPECT_EQ(has(text, "It holds 5 of the 5 snapshots of the membranes."), report_has_viewer());
   EXPECT_EQ(has(text, "scripts/viewer.sh"), !report_has_viewer());
@@ -201,6 +201,11 @@ TEST_F(Report, NamesWhatIsDamaged) {
   EXPECT_TRUE(has(text, "vesicle_000000002.h5"));
   EXPECT_TRUE(has(text, "fluid_000000000.h5"));
   EXPECT_TRUE(has(text, "summary.json: it is damaged."));
+  EXPECT_TRUE(has(text, "tension number g"));
+  std::ofstream(at("run") / "scene.toml") << "[domain\n<b>";
+  const std::string other = report_of(at("run"));
+  EXPECT_TRUE(has(other, "[domain\n&lt;b&gt;"));
+  EXPECT_FALSE(has(other, "tension number g"));
   EXPECT_EQ(has(text, "It holds 4 of the 5 snapshots of the membranes"), report_has_viewer());
 }
 
