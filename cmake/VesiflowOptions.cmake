@@ -18,6 +18,8 @@ option(VESIFLOW_BUILD_APPS "Build the apps whose libraries are built" ${PROJECT_
 set(VESIFLOW_BUILD_TESTS AUTO CACHE STRING "Build the tests: ON, OFF, or AUTO, if GoogleTest is found and no other project includes this one")
 set(VESIFLOW_BATCH 1 CACHE STRING
   "How many sources are compiled as one: 8 take two thirds of the time of 1, and 1 sees what each forgets to include")
+set(VESIFLOW_BUILD_PYTHON AUTO CACHE STRING
+  "Build the Python package: ON, OFF, or AUTO, if pybind11 and the headers of Python are found, without sanitizers and no other project includes this one")
 set(VESIFLOW_BUILD_BENCH OFF CACHE STRING "Build the benchmarks: ON, OFF, or AUTO, if Google Benchmark is found")
 option(VESIFLOW_BUILD_FUZZ "Build the fuzz targets, and all else with coverage counters (clang only)" OFF)
 
@@ -61,6 +63,27 @@ if(VESIFLOW_BUILD_TESTS STREQUAL "AUTO" AND NOT PROJECT_IS_TOP_LEVEL)
   set(VESIFLOW_BUILD_TESTS OFF)
 endif()
 vesiflow_resolve_auto(VESIFLOW_BUILD_TESTS "tests" GTest)
+if(VESIFLOW_BUILD_PYTHON STREQUAL "AUTO" AND
+   (NOT PROJECT_IS_TOP_LEVEL OR VESIFLOW_SANITIZE OR VESIFLOW_COVERAGE OR NOT "run" IN_LIST VESIFLOW_LIBRARIES))
+  set(VESIFLOW_BUILD_PYTHON OFF)
+endif()
+if(VESIFLOW_BUILD_PYTHON)
+  if(NOT "run" IN_LIST VESIFLOW_LIBRARIES)
+    message(FATAL_ERROR "VESIFLOW_BUILD_PYTHON: the package is of all libraries; VESIFLOW_LIBRARIES is ${VESIFLOW_LIBRARIES}")
+  endif()
+  # The distribution's python has the packages that scripts/python.sh looks for; another one in PATH may hide it.
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  set(PYBIND11_FINDPYTHON ON)
+  set(wanted ${VESIFLOW_BUILD_PYTHON})
+  vesiflow_resolve_auto(VESIFLOW_BUILD_PYTHON "modules of the Python package" Python 3.9 COMPONENTS Interpreter Development.Module)
+  if(VESIFLOW_BUILD_PYTHON)
+    find_package(Python 3.9 QUIET COMPONENTS Interpreter Development.Module)  # its commands and targets are of this folder
+    set(VESIFLOW_BUILD_PYTHON ${wanted})
+    vesiflow_resolve_auto(VESIFLOW_BUILD_PYTHON "modules of the Python package" pybind11 2.10)
+  endif()
+endif()
 vesiflow_resolve_auto(VESIFLOW_BUILD_BENCH "benchmarks" benchmark)
 
 if(VESIFLOW_BUILD_FUZZ AND NOT (CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND VESIFLOW_SANITIZE))

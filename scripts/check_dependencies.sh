@@ -174,5 +174,19 @@ while IFS=: read -r file included; do
     complain "apps include public headers and common/ only: $file includes \"$included\""
 done < <(quoted_includes apps)
 
+# The Python package: the same, but for what finds equilibrium shapes, which is an app's.
+while IFS=: read -r file included; do
+  found=0
+  for folder in lib*/include python/src apps/membrane/equilibrium_shape; do [[ ! -e $folder/$included ]] || found=1; done
+  [[ $found -eq 1 ]] || complain "the Python package includes public headers only: $file includes \"$included\""
+done < <(quoted_includes python/src)
+# Its modules of one library know no other.
+for library in vesicle fluid; do
+  while IFS=: read -r file included; do
+    [[ $included != */* || ${included%%/*} == "$library" || ! -e lib${included%%/*}/include/$included ]] ||
+      complain "vesiflow.$library knows no lib${included%%/*}: $file includes \"$included\""
+  done < <(quoted_includes python/src | grep "^python/src/${library}_module.cpp:" || true)
+done
+
 [[ $failed -eq 0 ]] && echo "dependencies: as they should be"
 exit $failed

@@ -2,8 +2,9 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what building and running the programs and plotting their results need; silent when nothing is missing.
-# usage: scripts/install-deps.sh [--test | --dev | --viewer | --browser]
-#   --test   also what the tests and benchmarks need, and SUNDIALS, whose Debian package brings PETSc, MPI and Fortran along
+# usage: scripts/install-deps.sh [--python | --test | --dev | --viewer | --browser]
+#   --python also what the Python package is compiled and installed with
+#   --test   the same, and what the tests and benchmarks need, and SUNDIALS, whose Debian package brings PETSc, MPI and Fortran along
 #   --dev    also the tools of the format, script and documentation checks, the fuzz targets and the sanitizers
 #   --viewer also Node and npm, which scripts/viewer.sh makes the viewer of the reports with. Debian 12 has npm as 358 packages, more than all
 #            the others here, so that they come only when they are asked for
@@ -21,6 +22,7 @@ packages=(
 )
 commands=(g++ cmake ninja)
 headers=(Eigen/Core fftw3.h cholmod.h hdf5.h xxhash.h toml++/toml.h CLI/CLI.hpp spdlog/spdlog.h fmt/core.h nlohmann/json.hpp muParser.h)
+python_packages=(python3-dev pybind11-dev python3-pybind11 python3-setuptools python3-wheel python3-pip python3-venv)
 test_packages=(pkgconf libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
@@ -38,6 +40,10 @@ add_unless_there() {
 }
 
 case "${1:-}" in
+  --python)
+    packages+=("${python_packages[@]}")
+    shift
+    ;;
   --viewer)
     add_unless_there nodejs npm
     shift
@@ -47,7 +53,7 @@ case "${1:-}" in
     shift
     ;;
   --test | --dev)
-    packages+=("${test_packages[@]}")
+    packages+=("${python_packages[@]}" "${test_packages[@]}")
     headers+=("${test_headers[@]}")
     if [[ $1 == --dev ]]; then
       packages+=("${dev_packages[@]}")

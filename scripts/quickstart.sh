@@ -24,7 +24,7 @@ fi
 logged build/release/configure.log "Configuring build/release" cmake --preset release
 logged build/release/build.log "Compiling shear_flow" cmake --build --preset release --target shear_flow
 build/release/apps/shear_flow scenes/tank_treading_coarse.toml --out "$out" --threads "$threads"
-scripts/python.sh tools/plot_run.py "$out"
+scripts/python.sh -m vesiflow plot "$out"
 
 scripts/python.sh - "$out" <<'REPORT'
 import json, sys

@@ -14,7 +14,8 @@ scripts/install-deps.sh --test
 # and not exactly this one.
 level=$(widest_level)
 logged build/test/configure.log "Configuring build/test" cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DVESIFLOW_ARCH="$level" -DVESIFLOW_WERROR=ON -DVESIFLOW_BATCH=8 -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BUILD_BENCH=OFF
+  -DVESIFLOW_ARCH="$level" -DVESIFLOW_WERROR=ON -DVESIFLOW_BATCH=8 -DVESIFLOW_WITH_SUNDIALS=ON -DVESIFLOW_BUILD_TESTS=ON -DVESIFLOW_BUILD_PYTHON=ON \
+  -DVESIFLOW_BUILD_BENCH=OFF
 logged build/test/build.log "Compiling libraries, apps and tests for ${level:-any processor}" cmake --build build/test
 
 # Tests that run side by side share the cores: threads that wait must not spin.

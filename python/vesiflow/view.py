@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`vesiflow report DIR` writes the report of a run; `vesiflow view DIR` serves that of a run under way on this machine, always up to date.
 
-Both call the app `report`, which is looked for in the folder that VESIFLOW_APPS names, beside this program, in the build trees of the
-checkout (the newest first) and on the PATH.
+Both call the library. Where the package has no bindings, as in a checkout in which only programs were built, they call the app `report`, which is
+looked for in the folder that VESIFLOW_APPS names, beside this program, in the build trees of the checkout (the newest first) and on the PATH.
 """
 
 import argparse
@@ -19,6 +19,7 @@ from pathlib import Path
 
 ADDRESS = "127.0.0.1"  # nobody else's business
 DEFAULT_PORT = 8765
+MOST_FRAMES = 200
 
 
 class ReportError(Exception):
@@ -53,14 +54,52 @@ def _is_ours(app):
     return answer.stdout.startswith("report of Vesiflow")
 
 
-def report_main(argv=None):
-    """Writes the report of a run: the options are those of the app `report`, whose exit code is returned."""
+def page_writer():
+    """A function (folder, file, frames, live) that writes a page and raises ReportError where it cannot.
+
+    Raises ReportError where there is neither the library nor the app.
+    """
     try:
+        from . import run
+    except ImportError:
         app = find_report_app()
+
+        def write(folder, file, frames, live):
+            made = subprocess.run([app, folder, "--quiet", "--threads", "1", "--file", file, "--frames", str(frames), *["--live"] * live],
+                                  capture_output=True, text=True, check=False)
+            if made.returncode != 0:
+                raise ReportError(made.stderr.strip().removeprefix("error: ") or f"report ended with {made.returncode}")
+
+        return write
+
+    from .errors import FileError
+
+    def write(folder, file, frames, live):
+        try:
+            run.write_report(folder, file, frames=frames, live=live)
+        except (FileError, ValueError) as error:
+            raise ReportError(str(error)) from error
+
+    return write
+
+
+def report_main(argv=None):
+    """Writes the report of a run; returns the exit code."""
+    parser = argparse.ArgumentParser(prog="vesiflow report", description="Writes the report of a run: one page with its membranes, numbers and scene, for any browser.")
+    parser.add_argument("folder", help="folder of a run, under way or ended")
+    parser.add_argument("--file", help="the page (default: report.html in the folder of the run)")
+    parser.add_argument("--frames", type=int, default=MOST_FRAMES, help="snapshots of the membranes that the page holds at most, evenly chosen (default: %(default)s)")
+    arguments = parser.parse_args(argv)
+    if arguments.frames < 1:
+        parser.error(f"--frames {arguments.frames}: must be 1 or more")
+    file = Path(arguments.file) if arguments.file else Path(arguments.folder) / "report.html"
+    try:
+        page_writer()(arguments.folder, file, arguments.frames, False)
     except ReportError as error:
         print(f"error: {error}", file=sys.stderr)
-        return 1
-    return subprocess.run([app, *(sys.argv[1:] if argv is None else argv)], check=False).returncode
+        return 4
+    print(f"report in {file}")
+    return 0
 
 
 class LivePage:
@@ -69,9 +108,9 @@ class LivePage:
     A run replaces its files as a whole and adds snapshots as files, so that they can be read at any moment.
     """
 
-    def __init__(self, folder, app):
+    def __init__(self, folder, write):
         self.folder = Path(folder)
-        self._app = app
+        self._write = write
         self._lock = threading.Lock()
         self._made_of = None
         self._html = b""
@@ -106,10 +145,7 @@ class LivePage:
     def _make(self):
         with tempfile.TemporaryDirectory(prefix="vesiflow_view_") as folder:
             page = Path(folder) / "report.html"
-            made = subprocess.run([self._app, self.folder, "--live", "--quiet", "--threads", "1", "--file", page],
-                                  capture_output=True, text=True, check=False)
-            if made.returncode != 0:
-                raise ReportError(made.stderr.strip() or f"report ended with {made.returncode}")
+            self._write(self.folder, page, MOST_FRAMES, True)
             return page.read_bytes()
 
 
@@ -156,9 +192,9 @@ def _handler(page):
 def serve(folder, port=DEFAULT_PORT):
     """A server of the live page of `folder` on this machine alone; port 0 takes a free one. Call `serve_forever()` of what it returns.
 
-    Raises ReportError without the app, OSError where the port is taken.
+    Raises ReportError without library and app, OSError where the port is taken.
     """
-    return http.server.ThreadingHTTPServer((ADDRESS, port), _handler(LivePage(folder, find_report_app())))
+    return http.server.ThreadingHTTPServer((ADDRESS, port), _handler(LivePage(folder, page_writer())))
 
 
 def view_main(argv=None):

@@ -9,7 +9,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/good"
 cp -r scripts common apps lib* "$scratch/good"
-mkdir "$scratch/good/tests"
+mkdir "$scratch/good/tests" "$scratch/good/python"
+cp -r python/src "$scratch/good/python"
 cp -r tests/vesicle tests/fluid "$scratch/good/tests"
 failed=0
 
@@ -123,6 +124,14 @@ refused "apps include public headers only" apps/scene/vesicles.cpp
 fresh
 adds apps/scene/vesicles.cpp '#include "harmonics/lanes.h"'
 refused "apps include public headers and common/ only" apps/scene/vesicles.cpp '"harmonics/lanes.h"'
+
+# The Python package: public headers only, and of a module of one library those of that library.
+fresh
+adds python/src/run_module.cpp '#include "run/recorder.h"'
+refused "the Python package includes public headers only" python/src/run_module.cpp '"run/recorder.h"'
+fresh
+adds python/src/fluid_module.cpp '#include "vesicle/surface.h"'
+refused "vesiflow.fluid knows no libvesicle" python/src/fluid_module.cpp '"vesicle/surface.h"'
 
 # Libraries of numerics know no files, no logger, no signals.
 for header in '<toml++/toml.h>' '<nlohmann/json.hpp>' '<spdlog/spdlog.h>' '<hdf5.h>' '<csignal>'; do

@@ -13,7 +13,7 @@ from harness.tables import table
 
 TITLE = "eight vesicles that pass each other, sharp and delta"
 RATIOS, METHODS, END, VESICLES = [1, 5], ["sharp", "delta"], 10, 8
-SPACING = 0.125
+SPACING = 0.1
 
 
 def run_of(method, ratio):

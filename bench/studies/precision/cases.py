@@ -386,10 +386,10 @@ def sharp_contrast_case(quick):
     """Only sharp membranes, in half the box: ratio_5 has them beside the delta function."""
     width = 8.0
     fine = SHARP | {"mesh.latitudes": 32 if quick else 48, "time.step": "1/48"}
-    grids = (64, 48) if quick else (96, 80)
-    sweeps = [*grid_sweep(width, (32, 40, 48) if quick else (24, 32, 40, 48, 56, 64), 24, SHARP)]
+    grids = (64, 48) if quick else (128, 96)
+    sweeps = [*grid_sweep(width, (32, 40, 48) if quick else (24, 32, 40, 48, 56, 64, 80, 96, 112), 24, SHARP)]
     sweeps += [("step", "time step", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": f"1/{step}"} | SHARP)
-               for step in (12, 16) for n in ((32, 40, 48) if quick else (32, 40, 48, 50, 54, 56))]
+               for step in (12, 16) for n in ((32, 40, 48) if quick else (32, 40, 48, 50, 54, 56, 80, 96, 112))]
     at = SHARP | {"cells": 40, "mesh.latitudes": 32}
     return Case(
         "ratio_5_sharp", "sharp membranes, tank-treading from 20 degrees: reduced volume 0.9, ratio 5, Re = 1e-3, half a box", "scenes/paper/half_box.toml",

@@ -281,7 +281,7 @@ SHARP_STIFFNESS = dataclasses.replace(
 
 def _phases_recommended(panel, reynolds, ratio, convection):
     dt = number(panel.split()[-1])
-    return (ratio >= 0.5 or (reynolds <= 1 and ratio >= 0.2)) and dt <= min(convection, 1 / 12) and reynolds * SPACING**2 / dt <= 40
+    return (ratio >= 0.5 or reynolds <= (1 if ratio >= 0.2 else 0.1 * ratio)) and dt <= min(convection, 1 / 12)
 
 
 SHARP_PHASES = Map(
@@ -290,7 +290,7 @@ SHARP_PHASES = Map(
     lambda panel, reynolds, ratio: {"time.step": panel.split()[-1], "fluid.reynolds_number": reynolds, "fluid.viscosity_ratio": ratio,
                                     "membrane.sigma0": 2000} | SHARP,
     lambda panel, reynolds, ratio: (reynolds, ratio), _phases_recommended,
-    "docs/coupling.md: ratios from 0.5 on, or from 0.2 on to Re = 1; docs/time_integration.md, Convection")
+    "docs/coupling.md: ratios from 0.5 on, from 0.2 on to Re = 1, below to Re = ratio/10; docs/time_integration.md, Convection")
 
 ALL = {each.name: each for each in (INTEGRATORS, SHAPES, CONTRAST, INERTIA, MESH, FORMULA_MAP, STARTS, STIFF_STARTS, SHARP_SHAPES, SHARP_INERTIA,
                                     SHARP_CONTRAST, SHARP_STIFFNESS, SHARP_PHASES)}

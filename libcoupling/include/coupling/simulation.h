@@ -221,9 +221,9 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   void hold_the_fluid();
   void update_viscosity();
   void advance_fluid(double dt);
-  void correct_fluid(double dt);
+  void correct_fluid();
   void find_neighbours();
-  void iterate_interfaces(double dt);
+  void iterate_interfaces();
   double improve_interfaces();
   void prepare_inertia(double dt);
   void keep_phases();
@@ -254,7 +254,6 @@ class VESIFLOW_COUPLING_EXPORT Simulation {
   std::unique_ptr<StartControl> start_control_;          // of equal steps that start in parts where they must
   std::vector<VesicleState> remembered_;                 // before the step that is tried
   std::vector<vesicle::ScalarField> curvatures_;         // the same, in a start
-  bool corrects_fluid_ = false;                          // after each step, for what implicit terms have done
   std::unique_ptr<PhysicalVelocity> physical_velocity_;  // where it is not that of the fluid
   std::unique_ptr<PhaseInertia> phase_inertia_;          // where two viscosities and inertia meet, if sharp
   fluid::Vector3 mean_flow_{};                           // which the fluid's velocity lacks, of the last solve

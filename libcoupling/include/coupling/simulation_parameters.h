@@ -211,9 +211,11 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   bool has_scaled_velocity() const;
   /// Whether the inertia of the two phases is put on the fluid as a force: the same, in a fluid with inertia.
   bool has_phase_inertia() const;
-  /// Whether each step solves the fluid a second time, with the forces that implicit terms stand for: sharp membranes,
-  /// shape_following, and a fluid with inertia.
-  bool corrects_fluid() const;
+  /// Whether a step of length dt solves the fluid a second time, with the forces that implicit terms stand for: sharp
+  /// membranes, shape_following, and inertia that matters within a step: its viscous layer, sqrt(dt/Re), is thinner than
+  /// the largest vesicle's radius. Otherwise the fluid has forgotten the velocity of the last step, and what it has not heard of
+  /// (docs/studies/stability_maps.md).
+  bool corrects_fluid(double dt) const;
   /// Whether meshes follow the shapes and not the material.
   bool follows_shape() const;
   /// Number of steps of equal length from 0 to time.end, the last one at or just beyond it.

@@ -48,10 +48,15 @@ constexpr double bending_step_of_sharp = 0.2;
 
 constexpr double largest_reynolds_number = 10.0;  ///< that has been compared with anything (V)
 
-constexpr double thin_sharp_ratio = 0.5,  ///< sharp membranes around a thinner fluid than this, with inertia,
-    largest_reynolds_number_of_thin_sharp =
-        1.0,                     ///< are quiet to this; 0.2 blows up at 3 on h = R/4 (docs/coupling.md)
-    thinnest_sharp_ratio = 0.2;  ///< and down to this ratio; 0.1 blows up at 1
+constexpr double thin_sharp_ratio =
+    0.5;  ///< a thinner fluid inside of sharp membranes allows less inertia (docs/coupling.md)
+
+/// To which Reynolds number sharp membranes are quiet with inertia, by the least ratio of viscosities, if that is below
+/// thin_sharp_ratio: 1 down to 0.2 (which blows up at 3 on h = R/4), and below that a tenth of the ratio
+/// (0.05 and 0.1 blow up at 0.02 and 0.1 in short steps with sigma0 = 20 000; with 2000 they are quiet to Re = ratio).
+constexpr double largest_reynolds_number_of_thin_sharp(double least_ratio) {
+  return least_ratio < 0.2 ? 0.1 * least_ratio : 1.0;
+}
 
 /// Nearest that a sharp membrane comes to a wall, in spacings: nearer, markers would read points beyond it.
 constexpr double sharp_wall_clearance = 1.5;
@@ -119,6 +124,8 @@ VESIFLOW_COUPLING_EXPORT double largest_radius(const SimulationParameters& param
 /// Reynolds number of the largest vesicle in the unit of time: rho r^2/(mu t), whatever the unit of length. 0 without
 /// inertia.
 VESIFLOW_COUPLING_EXPORT double vesicle_reynolds_number(const SimulationParameters& parameters);
+/// Whether there is more inertia than sharp membranes around a thinner fluid are quiet with, if the membranes are sharp.
+VESIFLOW_COUPLING_EXPORT bool passes_inertia_of_thin_sharp(const SimulationParameters& parameters);
 
 /// Capillary number of a vesicle in the unit of time and its own radius: mu r^3/(c_b t), whatever the unit of length.
 VESIFLOW_COUPLING_EXPORT double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle);

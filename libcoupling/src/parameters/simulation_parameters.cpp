@@ -82,9 +82,12 @@ bool SimulationParameters::has_phase_inertia() const {
   return has_scaled_velocity() && fluid.inertia != fluid::Inertia::none;
 }
 
-bool SimulationParameters::corrects_fluid() const {
-  return coupling.method == CouplingMethod::sharp && fluid.inertia != fluid::Inertia::none &&
-         time.markers == MarkerMotion::shape_following;
+bool SimulationParameters::corrects_fluid(double dt) const {
+  if (coupling.method != CouplingMethod::sharp || fluid.inertia == fluid::Inertia::none ||
+      time.markers != MarkerMotion::shape_following)
+    return false;
+  // Inside, w = mu u has the Reynolds number Re/ratio.
+  return vesicle_reynolds_number(*this) > dt * std::min(1.0, viscosity_range().least);
 }
 
 bool SimulationParameters::follows_shape() const {

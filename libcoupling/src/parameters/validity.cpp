@@ -49,6 +49,12 @@ double vesicle_reynolds_number(const SimulationParameters& parameters) {
   return parameters.fluid.inertia == fluid::Inertia::none ? 0.0 : parameters.fluid.reynolds_number * radius * radius;
 }
 
+bool passes_inertia_of_thin_sharp(const SimulationParameters& parameters) {
+  const double ratio = parameters.viscosity_range().least;
+  return ratio < validity::thin_sharp_ratio &&
+         vesicle_reynolds_number(parameters) > validity::largest_reynolds_number_of_thin_sharp(ratio);
+}
+
 double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle) {
   const double radius = parameters.vesicles[vesicle].radius;
   return parameters.capillary_number(vesicle) * radius * radius * radius;

@@ -101,7 +101,6 @@ void Simulation::make_vesicles() {
     vesicles_.push_back(std::make_unique<ImmersedVesicle>(parameters_, flow_, i, fluid_.grid(), membrane));
   }
   external_forces_ = std::make_unique<ExternalForces>(parameters_, fluid_.grid(), vesicles_, own_forces_);
-  corrects_fluid_ = parameters_.corrects_fluid();
   if (parameters_.has_scaled_velocity() && !physical_velocity_)
     physical_velocity_ = std::make_unique<PhysicalVelocity>(fluid_.grid());
   if (parameters_.has_phase_inertia()) {
@@ -110,6 +109,7 @@ void Simulation::make_vesicles() {
       if (v->two_phase) bodies.push_back({&*v->sharp, v->two_phase->ratio()});
     phase_inertia_ = std::make_unique<PhaseInertia>(fluid_.grid(), parameters_.fluid.reynolds_number, std::move(bodies),
                                                     parameters_.fluid.inertia == fluid::Inertia::full);
+    fluid_.keep_force();  // the interfaces' velocities are iterated
   }
   if (parameters_.time.markers != MarkerMotion::implicit) return;
   std::vector<ImplicitStep::Member> members;

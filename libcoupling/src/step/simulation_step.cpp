@@ -60,10 +60,11 @@ void Simulation::take_step(double dt) {
   compute_forces(dt);  // Steps 1 and 2: coefficients, geometry, forces, spreading
   update_viscosity();
   if (implicit_step_) return solve_step(dt);
-  if (corrects_fluid_) fluid_.remember();
+  const bool corrects_fluid = parameters_.corrects_fluid(dt);
+  if (corrects_fluid) fluid_.keep_force();
   advance_fluid(dt);  // Step 3: Navier-Stokes
   move_markers(dt);   // Steps 4 and 5: interpolation, mesh control, markers, target areas
-  if (corrects_fluid_) correct_fluid(dt);
+  if (corrects_fluid) correct_fluid();
   keep_phases();
 }
 
@@ -207,7 +208,7 @@ void Simulation::update_viscosity() {
 void Simulation::advance_fluid(double dt) {
   try {
     fluid_.step(dt);
-    iterate_interfaces(dt);
+    iterate_interfaces();
   } catch (const std::invalid_argument& error) {
     if (fluid_.steps() > 0) throw;  // the state's fault
     // The velocity solver is made in the first step, or refused.
@@ -218,13 +219,12 @@ void Simulation::advance_fluid(double dt) {
 }
 
 // The implicit terms have moved the membranes otherwise than the fluid has; with their forces it does.
-void Simulation::correct_fluid(double dt) {
+void Simulation::correct_fluid() {
   clear_forces();
   for (auto& v : vesicles_)
     if (v->two_phase) v->two_phase->begin_iteration();
   put_forces(true);
-  fluid_.retry();
-  fluid_.step(dt);
+  fluid_.solve_again();
   improve_interfaces();
 }
 
@@ -241,7 +241,7 @@ double Simulation::improve_interfaces() {
 }
 
 // Forces at the velocity that they lead to.
-void Simulation::iterate_interfaces(double dt) {
+void Simulation::iterate_interfaces() {
   if (std::ranges::none_of(vesicles_, [](const auto& v) { return v->two_phase.has_value(); })) return;
   int passes = 1;
   ++interface_passes_;
@@ -252,12 +252,7 @@ void Simulation::iterate_interfaces(double dt) {
                       change, passes));
     clear_forces();
     put_forces();
-    if (phase_inertia_) {
-      fluid_.retry();
-      fluid_.step(dt);
-    } else {
-      fluid_.solve_again();
-    }
+    fluid_.solve_again();
     ++passes;
     ++interface_passes_;
   }

@@ -50,11 +50,12 @@ void for_band(const GridBand& band, const Work& work) {
 
 }  // namespace
 
-// Errors of a phase are multiplied by 1 - 2 s/3 in a step, s its acceleration over the solved one: by -1/3 with s = 2, which is as good as the
-// 1/3 of BDF2 itself, s = 1. From s = 3 on they would not decay. A larger Re_s leaves more to be extrapolated: with s = 1 inside at ratio 0.2,
-// Re = 1, dt = 1/24 stiff membranes blow up.
+// Errors of a phase are multiplied by 1 - 2 s/3 in a step, s its acceleration over the solved one: by -2/3 with s = 2.5. From s = 3 on they
+// would not decay, and runs with s = 3.3 blow up at once. A larger Re_s makes the other phase, of s << 1, slow to forget: with s = 2 and 1
+// inside, a thin inside blows up from ever smaller Reynolds numbers on (ratio 0.05, dt = 1/48: 0.05 and less, against 0.1).
 double PhaseInertia::solved_reynolds_number(double reynolds_number, double least_ratio) {
-  return reynolds_number * std::max(1.0, 0.5 / least_ratio);
+  constexpr double greatest_share = 2.5;
+  return reynolds_number * std::max(1.0, 1.0 / (greatest_share * least_ratio));
 }
 
 PhaseInertia::Level::Level(const fluid::Grid& grid, bool convects) : outer(grid) {

@@ -46,7 +46,7 @@ class PhaseInertia {
   /// noise is least from 0.25 to 0.5.
   static constexpr double smoothing = 0.25;
 
-  /// Re_s: no phase has more than twice its acceleration.
+  /// Re_s: no phase has more than 2.5 times its acceleration.
   static double solved_reynolds_number(double reynolds_number, double least_ratio);
 
   /// \param bodies at least one; their transfers live longer than this

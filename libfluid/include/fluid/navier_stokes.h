@@ -189,9 +189,16 @@ class VESIFLOW_FLUID_EXPORT NavierStokes {
   /// the state is then lost, but for retry().
   void step(double dt);
 
-  /// Solves for the end of the last step again, with the force and the source of the divergence as they are now and from
-  /// the solution as it is: for forces that depend on the velocity. Allocates nothing.
-  /// \throws std::logic_error before the first step, and with inertia.
+  /// From now on steps with inertia keep their force, so that solve_again() can take what has changed. It costs the memory of a
+  /// velocity and a copy a step. Without inertia nothing is needed.
+  void keep_force();
+
+  /// Solves for the end of the last step again, with the force and the source of the divergence as they are now: for
+  /// forces that depend on the velocity. Allocates nothing. Without inertia it begins with the solution as it is. With
+  /// inertia it adds the answer to what of both has changed, as velocity and pressure at the end of a step are linear in
+  /// them: a solve of each equation without history and convection, to round-off what the step with the new force gives.
+  /// \throws std::logic_error before the first step; with inertia also unless the last step came after keep_force() and the viscosity is
+  /// the same everywhere.
   /// \throws std::runtime_error as step().
   void solve_again();
 

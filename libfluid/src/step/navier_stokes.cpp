@@ -37,6 +37,10 @@ void NavierStokes::forget() {
   stepper_->forget();
 }
 
+void NavierStokes::keep_force() {
+  stepper_->keep_force();
+}
+
 void NavierStokes::solve_again() {
   stepper_->solve_again();
 }

@@ -233,6 +233,7 @@ void Stepper::restore(const FaceVector& velocity_, const FaceVector& previous_, 
   walls.evaluate(clock_.time);
   clock = clock_;
   is_remembered_ = false;
+  if (driven_) driven_->step = -1;
   copy(velocity_, velocity);
   copy(previous_, previous);
   copy(pressure_, pressure);
@@ -291,16 +292,62 @@ void Stepper::check_given() {
   remove_mean(*given_divergence);
 }
 
+void Stepper::keep_force() {
+  if (!stokes_ && !driven_)
+    driven_.emplace(
+        Driven{FaceVector(grid), {}, -1, WallVelocity(grid, [](const Vector3&, double) { return Vector3{}; })});
+}
+
 void Stepper::solve_again() {
-  if (!stokes_ || clock.steps == 0)
-    throw std::logic_error("fluid: solve_again() is of a fluid without inertia, after a step");
-  check_given();
+  if (clock.steps == 0 || (!stokes_ && !(driven_ && driven_->step == clock.steps)))
+    throw std::logic_error("fluid: solve_again() is after a step and, with inertia, one after keep_force()");
+  if (variable_viscosity() && !stokes_) throw std::logic_error("fluid: solve_again() with inertia is of one viscosity");
   try {
-    solve_stokes(velocity);
+    if (stokes_) {
+      check_given();
+      solve_stokes(velocity);
+    } else {
+      add_change();
+    }
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(
         message("fluid: step ", clock.steps, " to time ", clock.time, " solved again failed: ", error.what()));
   }
+}
+
+// The step is linear in the force and in the source of the divergence: of these only the change is solved for, which has no history, no
+// convection and walls at rest.
+void Stepper::add_change() {
+  FaceVector& change = driven_->force;
+  {
+    const PhaseTimer timer(timings.momentum);
+    const Blocks right_side = change.unknowns();
+    scale_and_add(-1.0, std::as_const(force).unknowns(), right_side);
+    for (int axis = 0; axis < 3; ++axis)
+      if (const double more = uniform_force[axis] - driven_->uniform_force[axis]; more != 0.0)
+        add_constant(more, right_side[axis]);
+    report.momentum = velocity_solver->solve(std::as_const(change).unknowns(), change.unknowns());
+    check_converged("velocity", report.momentum);
+  }
+  {
+    const PhaseTimer timer(timings.projection);
+    driven_->at_rest.set_normal_faces(change);
+    divergence(change, chi_);
+    if (given_divergence) add(1.0, std::as_const(*given_divergence).unknowns(), chi_.unknowns());
+  }
+  check_given();
+  project(velocity_solver->problem().alpha, driven_->at_rest, change);
+  const PhaseTimer timer(timings.projection);
+  add(1.0, std::as_const(change).unknowns(), velocity.unknowns());
+  walls.set_normal_faces(velocity);
+  walls.fill_ghosts(velocity);
+  keep_for(clock.steps);
+}
+
+void Stepper::keep_for(long step) {
+  copy(std::as_const(force).unknowns(), driven_->force.unknowns());
+  driven_->uniform_force = uniform_force;
+  driven_->step = step;
 }
 
 void Stepper::step(double dt) {
@@ -328,9 +375,15 @@ void Stepper::advance_with_inertia(double dt) {
   const double a = parameters.reynolds_number * coefficients.a0 / dt;
   update_velocity_solver(a);
   form_right_hand_side(coefficients, dt);
+  if (driven_) keep_for(clock.steps + 1);
   if (variable_viscosity()) add_explicit_stress();
   solve_momentum();
-  project(a);
+  {
+    const PhaseTimer timer(timings.projection);
+    walls.set_normal_faces(previous);
+    divergence(previous, chi_);
+  }
+  project(a, walls, previous);
 }
 
 void Stepper::extrapolate_and_solve_stokes(double dt) {
@@ -408,21 +461,20 @@ void Stepper::solve_momentum() {
   check_converged("velocity", report.momentum);
 }
 
-void Stepper::project(double a) {
+// u has the divergence chi_, and shall have the given one.
+void Stepper::project(double a, const WallVelocity& at_walls, FaceVector& u) {
   const PhaseTimer timer(timings.projection);
-  walls.set_normal_faces(previous);
-  divergence(previous, chi_);
   if (given_divergence) add(-1.0, std::as_const(*given_divergence).unknowns(), chi_.unknowns());
   report.pressure = pressure_solver->solve(std::as_const(chi_).unknowns(), chi_.unknowns());
   check_converged("pressure", report.pressure);
   if (implicit_stress()) {
-    correct_velocity_and_pressure(chi_, a, viscosity_, 1.0, previous, pressure);
+    correct_velocity_and_pressure(chi_, a, viscosity_, 1.0, u, pressure);
   } else {
-    correct_velocity_and_pressure(chi_, a, unit_, reference_viscosity_, previous, pressure);
+    correct_velocity_and_pressure(chi_, a, unit_, reference_viscosity_, u, pressure);
   }
   extend_to_ghosts(pressure);
-  walls.set_normal_faces(previous);
-  walls.fill_ghosts(previous);
+  at_walls.set_normal_faces(u);
+  at_walls.fill_ghosts(u);
 }
 
 std::string Stepper::velocity_solver_name() const {

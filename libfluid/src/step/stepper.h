@@ -27,6 +27,7 @@ class Stepper {
   void restore(const FaceVector& velocity, const FaceVector& previous_velocity, const Field<Cell>& pressure,
                const FluidClock& clock);
   void step(double dt);
+  void keep_force();
   void solve_again();
   void remember();
   void forget();
@@ -53,6 +54,14 @@ class Stepper {
     Field<Cell> pressure;
     FluidClock clock;
   };
+  // What solve_again() starts from where there is inertia.
+  struct Driven {
+    FaceVector
+        force;  // at inner faces, else zero: of the last step; while that is solved again, the change of the velocity
+    Vector3 uniform_force{};
+    long step = -1;        // whose forces they are
+    WallVelocity at_rest;  // the walls of a change
+  };
 
   bool variable_viscosity() const { return !parameters.viscosity.is_constant(); }
   double previous_step() const { return clock.steps > 0 ? clock.time_step : 0.0; }
@@ -62,6 +71,8 @@ class Stepper {
   void advance_with_inertia(double dt);
   void extrapolate_and_solve_stokes(double dt);
   void solve_stokes(FaceVector& solution);
+  void add_change();
+  void keep_for(long step);
   void check_given();
   void believe_divergence();
   void start();
@@ -71,7 +82,7 @@ class Stepper {
   void form_right_hand_side(const StepCoefficients& coefficients, double dt);
   void add_explicit_stress();
   void solve_momentum();
-  void project(double a);
+  void project(double a, const WallVelocity& at_walls, FaceVector& u);
 
   CoefficientView unit_, viscosity_;
   double reference_viscosity_ = 0.0;        // mu, or its largest value
@@ -81,6 +92,7 @@ class Stepper {
   std::optional<StokesSolver> stokes_;      // if there is no inertia
   Field<Cell> chi_;
   std::optional<Remembered> remembered_;
+  std::optional<Driven> driven_;
   bool is_remembered_ = false;  // whether remembered_ is of this run, and not of one before set_velocity() or restore()
 };
 

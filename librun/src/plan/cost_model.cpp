@@ -115,8 +115,9 @@ class CostModel {
     for (PhaseCost& cost : costs_) {
       if (cost.phase == "spread") cost.seconds *= ns::sharp_points_factor + ns::sharp_jumps_factor * solves;
       if (cost.phase == "interpolate")
-        cost.seconds *= ns::sharp_interpolate_factor * (scene_.corrects_fluid() ? 1.0 : solves);
-      if (cost.phase.starts_with("fluid_")) cost.seconds *= solves;
+        cost.seconds *= ns::sharp_interpolate_factor * (scene_.has_scaled_velocity() ? solves : 1.0);
+      // Convection is the same in all of them.
+      if (cost.phase.starts_with("fluid_") && cost.phase != "fluid_convection") cost.seconds *= solves;
       cost.rough = cost.rough || cost.phase == "spread" || cost.phase == "interpolate";
     }
   }

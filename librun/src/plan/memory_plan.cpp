@@ -66,6 +66,8 @@ MemoryPlan plan_memory(const Scene& scene) {
     // The source of the divergence, and the velocity that is shown where it is not the one that is solved for.
     plan.fluid += (scene.has_scaled_velocity() ? 4.0 : 1.0) * field;
     plan.membranes += sharp_bytes(scene);
+    if (scene.corrects_fluid(scene.time.step) || scene.has_phase_inertia())
+      plan.fluid += 3.0 * field;      // the force that a step is solved again with another than
     if (scene.has_phase_inertia()) {  // three times of both phases, with their convection, and a force
       const double at_each_time = scene.fluid.inertia == fluid::Inertia::full ? 6.0 : 3.0;
       plan.fluid += (3.0 * at_each_time + 3.0) * field;
@@ -74,8 +76,7 @@ MemoryPlan plan_memory(const Scene& scene) {
   }
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
   const double remembered = (viscosity.is_variable ? 5.0 : 4.0) * field;
-  if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit || scene.corrects_fluid())
-    plan.steps = remembered;
+  if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit) plan.steps = remembered;
   // Two velocities and a pressure, of two phases more velocities; four single precision numbers per cell.
   if (scene.output.checkpoint_every > 0.0)
     plan.output = scene.has_phase_inertia() ? 13.0 * field + 6.0 * inner_phase_bytes(scene) : 7.0 * field;

@@ -366,8 +366,10 @@ void describe_step(Plan& plan, const Scene& scene) {
   plan.part(true, "markers", describe_markers(scene), "");
   plan.part(follows && tension, "strain field",
             implicit ? "with forces and velocities of the new time"
-            : scene.corrects_fluid()
+            : scene.corrects_fluid(scene.time.step)
                 ? "implicit in tension and bending; the fluid is solved a second time with the forces of these terms"
+            : scene.coupling.method == coupling::CouplingMethod::sharp
+                ? "implicit in tension and bending, of which the fluid keeps no memory that matters"
                 : "implicit in tension and bending, momentum of its corrections owed to the fluid",
             follows ? "membrane.sigma0 = 0" : "time.markers is not \"shape_following\"");
   plan.part(follows && !scene.time.adaptive, "start", "in parts of steps where shapes start far from rest",

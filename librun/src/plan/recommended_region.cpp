@@ -53,23 +53,14 @@ std::string describe_marker_spacing(const Scene& scene) {
 }
 
 std::string describe_sharp_region(const Scene& scene) {
-  using validity::thin_sharp_ratio, validity::thinnest_sharp_ratio, validity::largest_reynolds_number_of_thin_sharp;
   std::string warning;
-  const double least = scene.viscosity_range().least;
-  if (scene.has_phase_inertia() && least < thinnest_sharp_ratio)
-    warning = fmt::format(
-        "  <- WARNING: with inertia a fluid of ratio {:g} inside blows up: take fluid.inertia = \"none\", ratios >= "
-        "{:g} or "
-        "coupling.method = \"delta\"",
-        least, thinnest_sharp_ratio);
-  else if (scene.has_phase_inertia() && least < thin_sharp_ratio &&
-           vesicle_reynolds_number(scene) > largest_reynolds_number_of_thin_sharp)
+  if (coupling::passes_inertia_of_thin_sharp(scene)) {
+    const double least = scene.viscosity_range().least;
     warning = fmt::format(
         "  <- WARNING: a fluid of ratio {:g} inside can blow up at such Reynolds numbers: take fluid.reynolds_number "
-        "<= "
-        "{:g}, "
-        "ratios >= {:g} or coupling.method = \"delta\"",
-        least, largest_reynolds_number_of_thin_sharp, thin_sharp_ratio);
+        "<= {:g}, ratios >= {:g}, fluid.inertia = \"none\" or coupling.method = \"delta\"",
+        least, validity::largest_reynolds_number_of_thin_sharp(least), validity::thin_sharp_ratio);
+  }
   return fmt::format(
       "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "
       "limits are those of "

@@ -40,13 +40,9 @@ double least_reduced_volume(const Scene& scene) {
 
 // Where the inertia of two phases blows up: docs/coupling.md#sharp-membranes.
 std::string limit_of_inertia(const Scene& scene) {
-  if (scene.fluid.inertia == fluid::Inertia::none) return "";
-  const double ratio = scene.viscosity_range().least, re = vesicle_reynolds_number(scene);
-  if (scene.has_viscosity_contrast() &&
-      (ratio < validity::thinnest_sharp_ratio ||
-       (ratio < validity::thin_sharp_ratio && re > validity::largest_reynolds_number_of_thin_sharp)))
-    return fmt::format("with inertia, sharp membranes around a fluid of ratio {:g} blow up", ratio);
-  return "";
+  if (!coupling::passes_inertia_of_thin_sharp(scene)) return "";
+  return fmt::format("with such inertia, sharp membranes around a fluid of ratio {:g} blow up",
+                     scene.viscosity_range().least);
 }
 
 }  // namespace

@@ -127,6 +127,34 @@ TEST(Mistakes, AreSaidOnceInTheOrderInWhichTheyAreFound) {
   }
 }
 
+// The viscous layer of a step, sqrt(dt/Re), against the radius; inside, mu u has the Reynolds number Re/ratio.
+TEST(SimulationParameters, TheFluidIsCorrectedWhereItsLayerIsThinnerThanTheVesicle) {
+  SimulationParameters parameters = one_vesicle();
+  parameters.coupling.method = CouplingMethod::sharp;
+  parameters.time.markers = MarkerMotion::shape_following;
+  parameters.fluid.inertia = fluid::Inertia::unsteady;
+  parameters.fluid.reynolds_number = 0.05;
+  EXPECT_TRUE(parameters.corrects_fluid(0.049));
+  EXPECT_FALSE(parameters.corrects_fluid(0.051));
+  parameters.vesicles[0].radius = 2.0;
+  EXPECT_TRUE(parameters.corrects_fluid(0.19));
+  EXPECT_FALSE(parameters.corrects_fluid(0.21));
+  parameters.fluid.viscosity_ratio = 0.5;
+  EXPECT_TRUE(parameters.corrects_fluid(0.39));
+  EXPECT_FALSE(parameters.corrects_fluid(0.41));
+  parameters.fluid.viscosity_ratio = 5.0;
+  EXPECT_TRUE(parameters.corrects_fluid(0.19));
+  EXPECT_FALSE(parameters.corrects_fluid(0.21));
+  for (const auto& change :
+       {std::function<void(SimulationParameters&)>([](auto& p) { p.coupling.method = CouplingMethod::delta; }),
+        std::function<void(SimulationParameters&)>([](auto& p) { p.time.markers = MarkerMotion::implicit; }),
+        std::function<void(SimulationParameters&)>([](auto& p) { p.fluid.inertia = fluid::Inertia::none; })}) {
+    SimulationParameters other = parameters;
+    change(other);
+    EXPECT_FALSE(other.corrects_fluid(1e-6));
+  }
+}
+
 TEST(CheckParameters, SimulationsAreCheckedToo) {
   SimulationParameters parameters = one_vesicle();
   parameters.time.step = -0.01;

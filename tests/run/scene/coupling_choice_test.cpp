@@ -44,7 +44,8 @@ TEST(CouplingChoice, IsSharpWhereThatCanBeComputed) {
                                      {"fluid.viscosity_ratio=5"},
                                      {"fluid.reynolds_number=1"},
                                      {"time.markers=implicit"},
-                                     {"fluid.viscosity_ratio=0.2", "fluid.inertia=none"}}) {
+                                     {"fluid.viscosity_ratio=0.05"},
+                                     {"fluid.viscosity_ratio=0.05", "fluid.inertia=none"}}) {
     const Scene chosen = scene(overrides);
     EXPECT_EQ(chosen.coupling.method, CouplingMethod::sharp) << why_delta(chosen);
     EXPECT_NE(describe_plan(chosen, 1).find("sharp: its error is of second order"), std::string::npos);

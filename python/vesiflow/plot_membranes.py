@@ -4,12 +4,15 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib import animation
 from matplotlib.collections import LineCollection, PolyCollection
 
-import run_history
-from run_results import MissingData
+from . import plot_history
+from .errors import MissingData
+from .plot_smooth import smooth
 
 GREY, ORANGE = "0.35", "#D55E00"
+ROWS = 128  # of cells from pole to pole that a membrane is drawn with, where it is alone: too small to be seen
 
 
 def unit(vectors):
@@ -83,33 +86,28 @@ def _roomy(size):
 # ---- membranes ----
 
 
-def _facets(points, tension, faces, parts):
-    """Cells cut into parts by parts: corners (count, 4, 3), outward normals (count, 3) from those of the vertices, tension (count)."""
+def _facets(points, tension, faces):
+    """Corners (count, 4, 3), outward normals (count, 3) and tension (count) of the cells of a mesh: normals are means of those of the
+    vertices, so that light does not show the cells."""
     corners = points[faces]
     normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     of_vertex = np.zeros_like(points)
     for corner in range(4):
         np.add.at(of_vertex, faces[:, corner], normals)
-    fields = np.concatenate([points, unit(of_vertex), tension[:, None]], axis=1)[faces]
-    u = np.linspace(0, 1, parts + 1)
-    grid = [[(1 - a) * ((1 - b) * fields[:, 0] + b * fields[:, 3]) + a * ((1 - b) * fields[:, 1] + b * fields[:, 2]) for b in u] for a in u]
-    cells = np.concatenate([np.stack([grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]], axis=1)
-                            for i in range(parts) for j in range(parts)])
-    middle = cells.mean(axis=1)
-    return cells[:, :, :3], unit(middle[:, 3:6]), middle[:, 6]
+    return corners, unit(unit(of_vertex)[faces].mean(axis=1)), tension[faces].mean(axis=1)
 
 
 def draw_membranes(axes, membranes, colours):
     """Facets far to near, each in its tension's colour, lit from the upper left."""
-    parts = 3 if len(membranes) == 1 else 2 if len(membranes) <= 8 else 1
-    corners, normals, tension = (np.concatenate(part) for part in zip(*(_facets(*m, parts) for m in membranes)))
+    rows = ROWS if len(membranes) == 1 else ROWS // 2 if len(membranes) <= 8 else ROWS // 4
+    corners, normals, tension = (np.concatenate(part) for part in zip(*(_facets(*smooth(m, rows)) for m in membranes)))
     corners, normals = corners @ VIEW.T, normals @ VIEW.T
     front = np.flatnonzero(normals[:, 2] > -0.1)
     front = front[np.argsort(corners[front, :, 2].mean(axis=1))]
     diffuse = np.clip(normals[front] @ LIGHT, 0, 1)[:, None]
     shine = 0.12 * np.clip(normals[front] @ HALFWAY, 0, 1)[:, None] ** 30
     colour = np.clip(colours.to_rgba(tension[front])[:, :3] * (0.55 + 0.48 * diffuse) + shine, 0, 1)
-    axes.add_collection(PolyCollection(corners[front, :, :2], facecolors=colour, edgecolors=colour, linewidths=0.3))
+    axes.add_collection(PolyCollection(corners[front, :, :2], facecolors=colour, edgecolors=colour, linewidths=0.3, rasterized=True))
 
 
 def tension_colours(snapshots):
@@ -224,7 +222,7 @@ def _draw_slice(figure, run, box):
     picture = axes.pcolormesh(x, z, np.linalg.norm(velocity, axis=-1), cmap="Blues", vmin=0, shading="gouraud", rasterized=True)
     if np.any(velocity[..., ::2]):
         axes.streamplot(x, z, velocity[..., 0], velocity[..., 2], color="0.25", linewidth=0.6, density=1.3, arrowsize=0.7)
-    axes.add_collection(LineCollection(outline(membranes, y), colors=ORANGE, linewidths=2.2, zorder=3))
+    axes.add_collection(LineCollection(outline([smooth(m, 64) for m in membranes], y), colors=ORANGE, linewidths=2.2, zorder=3))
     axes.set(aspect="equal", xlabel="x / r", ylabel="z / r", xlim=(x[0], x[-1]), ylim=(z[0], z[-1]))
     late = "" if abs(times[nearest] - time) < 1e-9 else f", membranes at t = {times[nearest]:.3g}"
     axes.set_title(f"flow in the plane y = {y:.3g}, t = {time:.3g}{late}", fontsize=10)
@@ -269,5 +267,38 @@ def draw(run):
         said.append("with the half that symmetry gives: " + ", ".join(f"mirror {axis} = {box[0][d]:g}" for d, axis in enumerate("xyz") if box[3][d]))
     if box and any(box[2]):
         said.append("the box repeats along " + " and ".join(axis for d, axis in enumerate("xyz") if box[2][d]))
-    run_history.label(figure, run, said)
+    plot_history.label(figure, run, said)
     return figure, "; ".join(notes) or None
+
+
+# ---- the animation ----
+
+
+def animate(run, folder, frames_per_second=12):
+    """Writes membrane.mp4 of all snapshots, one view and one scale, or membrane.gif where there is no ffmpeg; returns its path."""
+    times, box = run.membrane_times(), run.box()
+    snapshots = [place(run.membranes(number), box) for number in range(len(times))]
+    centres, reach, boxed = frames(run, snapshots, box)
+    colours, _, _ = tension_colours(snapshots)
+    height = 4.5
+    figure = plt.figure(figsize=(height * float(np.clip(reach[0] / reach[1], 0.5, 2.5)), height), dpi=120)
+    axes = figure.add_axes([0, 0, 1, 0.93])
+
+    def show(number):
+        axes.clear()
+        if boxed:
+            axes.add_collection(LineCollection(_edges(box), colors="0.75", linewidths=0.7, zorder=0))
+        draw_membranes(axes, snapshots[number], colours)
+        centre = centres[number]
+        axes.set(aspect="equal", xlim=centre[0] + reach[0] * np.array([-1, 1]), ylim=centre[1] + reach[1] * np.array([-1, 1]))
+        axes.set_title(f"t = {times[number]:.2f}", fontsize=10)
+        axes.axis("off")
+
+    movie = animation.FuncAnimation(figure, show, frames=len(times), init_func=lambda: None)
+    has_ffmpeg = animation.writers.is_available("ffmpeg")
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / ("membrane.mp4" if has_ffmpeg else "membrane.gif")
+    writer = animation.FFMpegWriter(frames_per_second) if has_ffmpeg else animation.PillowWriter(frames_per_second)
+    movie.save(path, writer=writer)
+    plt.close(figure)
+    return path

@@ -1,31 +1,28 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""tools/plot_run.py on runs made here: what is drawn, what is said, what is left behind."""
+"""vesiflow plot on runs made here: what is drawn, what is said, what is left behind."""
 
 import contextlib
 import io
 import json
 import pathlib
-import sys
 import tempfile
 import unittest
-from unittest import mock
 
 import h5py
+import matplotlib
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tools"))
-import plot_run  # noqa: E402
-import run_history  # noqa: E402
-import run_membranes  # noqa: E402
-import run_references  # noqa: E402
+matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
-from run_results import MissingData, Run  # noqa: E402
+from vesiflow import plot, plot_history, plot_membranes, plot_references, plot_smooth  # noqa: E402
+from vesiflow.results import MissingData, Run  # noqa: E402
 
 COLUMNS = ("step time vesicle inclination_angle_deg tank_treading_frequency area_error volume_error max_local_area_error max_label_area_error "
            "bending_energy reduced_volume deformation centroid_x centroid_y centroid_z min_distance").split()
 LATITUDES = 8
-plot_run.STYLE["savefig.dpi"] = 50
+plot.STYLE["savefig.dpi"] = 50
+plot_membranes.ROWS = 24
 
 
 def sphere(centre):
@@ -100,12 +97,12 @@ class PlotRun(unittest.TestCase):
     def run_of(self, **of):
         return Folder(self.path, **of)
 
-    def plot(self):
+    def plot(self, *options):
         """Exit code, output and errors of the program."""
         out, err = io.StringIO(), io.StringIO()
-        with mock.patch.object(sys, "argv", ["plot_run.py", str(self.path)]), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             try:
-                code = plot_run.main()
+                code = plot.main([str(self.path), *options])
             except SystemExit as end:
                 code = end.code
         return code, out.getvalue(), err.getvalue()
@@ -119,7 +116,7 @@ class PlotRun(unittest.TestCase):
             self.assertGreater(np.mean(np.any(np.abs(pixels - pixels[0, 0]) > 0.05, axis=-1)), 0.02, name)
 
     def titles(self):
-        figure, _ = run_history.draw(Run(self.path))
+        figure, _ = plot_history.draw(Run(self.path))
         self.addCleanup(plt.close, figure)
         return [axes.get_title(loc="left") for axes in figure.axes], figure
 
@@ -128,6 +125,17 @@ class PlotRun(unittest.TestCase):
         code, out, err = self.plot()
         self.assertEqual((code, err), (0, ""))
         self.assert_drawn("history.png", "membrane.png")
+
+    def test_an_animation_and_a_vector_file(self):
+        self.run_of(times=(0.0, 1.0)).summary().table().membranes()
+        code, out, err = self.plot("--format", "pdf", "--animation")
+        self.assertEqual((code, err), (0, ""))
+        names = sorted(p.name for p in self.path.glob("pictures/*"))
+        self.assertEqual([names[0], names[2]], ["history.pdf", "membrane.pdf"])
+        movie = self.path / "pictures" / names[1]
+        self.assertIn(movie.suffix, (".mp4", ".gif"))
+        self.assertGreater(movie.stat().st_size, 5000)  # two frames that are not blank
+        self.assertTrue((self.path / "pictures/history.pdf").read_bytes().startswith(b"%PDF"))
 
     def test_a_folder_without_a_run_and_a_run_without_anything_leave_nothing_behind(self):
         code, _, err = self.plot()
@@ -187,7 +195,7 @@ class PlotRun(unittest.TestCase):
         titles, figure = self.titles()
         self.assertIn("area and volume: round-off", titles[-1])
         self.assertEqual(len(figure.axes[-1].lines), 1)
-        self.assertGreaterEqual(np.ptp(figure.axes[0].get_ylim()), run_history.INCLINATION.span)
+        self.assertGreaterEqual(np.ptp(figure.axes[0].get_ylim()), plot_history.INCLINATION.span)
         self.run_of().summary().table(max_local_area_error=lambda t, v: 0.0)
         titles, figure = self.titles()
         self.assertIn("local area, largest and area and volume: round-off", titles[-1])
@@ -201,27 +209,27 @@ class PlotRun(unittest.TestCase):
 
     def test_theory_is_that_of_the_scene(self):
         run = Run(self.run_of().summary().table().folder)
-        references = run_references.of(run, run.diagnostics())
+        references = plot_references.of(run, run.diagnostics())
         self.assertAlmostEqual(references["inclination"][0][0], 27.0, delta=0.05)  # Keller & Skalak, reduced volume 0.9, ratio 1
         self.assertAlmostEqual(references["frequency"][0][0], 0.427, delta=5e-4)
         run = Run(self.run_of(**{"fluid.viscosity_ratio": 20.0}).summary().folder)
-        self.assertEqual(run_references.of(run, run.diagnostics())["inclination"], [(None, "Keller & Skalak's ellipsoid: 9.02")])  # it tumbles
-        least = dict((label, value) for value, label in run_references.of(Run(self.run_of(**{"flow.type": "rest"}).summary().folder), run.diagnostics())["energy"])
+        self.assertEqual(plot_references.of(run, run.diagnostics())["inclination"], [(None, "Keller & Skalak's ellipsoid: 9.02")])  # it tumbles
+        least = dict((label, value) for value, label in plot_references.of(Run(self.run_of(**{"flow.type": "rest"}).summary().folder), run.diagnostics())["energy"])
         self.assertEqual(set(least), {"least of prolates", "least of oblates"})
         self.assertGreater(least["least of oblates"], least["least of prolates"])
 
     def test_the_state_of_a_run_is_said(self):
         for status, reason, said in (("completed", None, "completed at t = 1"), ("running", None, "under way, or killed: t = 1 of 1"),
                                      ("interrupted", None, "interrupted at t = 1 of 1"), ("stopped", "stopped in step 3: why\n  advice", "stopped in step 3: why")):
-            self.assertTrue(run_history.state(Run(self.run_of().summary(status, reason).folder)).startswith(said))
+            self.assertTrue(plot_history.state(Run(self.run_of().summary(status, reason).folder)).startswith(said))
 
     def test_a_tumbling_vesicle_has_a_half_turn_and_a_tank_treading_one_none(self):
         time = np.linspace(0, 20, 201)
-        self.assertAlmostEqual(run_history.half_turn(time, (90 - 20 * time + 90) % 180 - 90), 9.0)
-        self.assertIsNone(run_history.half_turn(time, 27 + 60 * np.exp(-time)))
+        self.assertAlmostEqual(plot_history.half_turn(time, (90 - 20 * time + 90) % 180 - 90), 9.0)
+        self.assertIsNone(plot_history.half_turn(time, 27 + 60 * np.exp(-time)))
 
     def test_mean_of_angles_knows_that_they_turn_over(self):
-        mean, least, largest = run_history.mean_and_range(np.array([[89.0], [-89.0], [88.0]]), angle=True)
+        mean, least, largest = plot_history.mean_and_range(np.array([[89.0], [-89.0], [88.0]]), angle=True)
         self.assertAlmostEqual(mean[0], 89.33, delta=0.01)
         self.assertAlmostEqual(least[0], 88.0)
         self.assertAlmostEqual(largest[0], 91.0)
@@ -230,7 +238,7 @@ class PlotRun(unittest.TestCase):
         self.run_of(**{"domain.periodic": [True, False, False]}).summary()
         box = Run(self.path).box()
         points = sphere(np.array([4 + 8 + 0.5, 0, 0]))
-        (placed, _, _), = run_membranes.place([(points, points[:, 0], None)], box)
+        (placed, _, _), = plot_membranes.place([(points, points[:, 0], None)], box)
         np.testing.assert_allclose(placed, points - [16, 0, 0])
 
     def test_the_mirror_image_joins_unless_the_vesicle_lies_across(self):
@@ -238,14 +246,14 @@ class PlotRun(unittest.TestCase):
         self.run_of(**{"domain.mirror": [False, True, False], "domain.lower": [-4.0, 0.0, -4.0]}).summary()
         box = Run(self.path).box()
         for y, count in ((0.0, 1), (2.0, 2)):
-            placed = run_membranes.place([(sphere(np.array([0, y, 0])), None, faces)], box)
+            placed = plot_membranes.place([(sphere(np.array([0, y, 0])), None, faces)], box)
             self.assertEqual(len(placed), count)
         np.testing.assert_allclose(placed[1][0].mean(axis=0), [0, -2, 0], atol=1e-12)
 
     def test_no_tension_is_white_and_its_sign_is_told(self):
         self.run_of().summary().membranes()
         run = Run(self.path)
-        colours, low, high = run_membranes.tension_colours([run.membranes(2)])
+        colours, low, high = plot_membranes.tension_colours([run.membranes(2)])
         self.assertLess(low, 0)
         self.assertGreater(high, 0)
         red, _, blue = colours.to_rgba([high, 0.0, low])[:, :3], colours.to_rgba(0.0)[:3], None
@@ -257,10 +265,29 @@ class PlotRun(unittest.TestCase):
         for keys in ({}, {"gravity.acceleration": [0.0, 0.0, -1.0]}):
             run = Run(self.run_of(vesicles=3, times=(0.0, 20.0), **keys).summary().membranes().folder)
             snapshots = [run.membranes(n) for n in (0, 1)]
-            centres, reach, _ = run_membranes.frames(run, snapshots, run.box())
+            centres, reach, _ = plot_membranes.frames(run, snapshots, run.box())
             for centre, membranes in zip(centres, snapshots):
                 for points, _, _ in membranes:
-                    self.assertTrue(np.all(np.abs(points @ run_membranes.VIEW.T[:, :2] - centre) <= reach))
+                    self.assertTrue(np.all(np.abs(points @ plot_membranes.VIEW.T[:, :2] - centre) <= reach))
+
+
+class Smooth(unittest.TestCase):
+    def test_a_finer_mesh_lies_on_the_surface_of_the_markers(self):
+        points = sphere(np.zeros(3)) * [1.0, 1.0, 2.0]  # an ellipsoid, of degree 1: exact
+        tension = points[:, 2] ** 2
+        fine, values, faces = plot_smooth.smooth((points, tension, None), 40)
+        self.assertEqual((fine.shape, faces.shape), ((41 * 80, 3), (40 * 80, 4)))
+        np.testing.assert_allclose(np.sum((fine / [1, 1, 2]) ** 2, axis=1), 1.0, atol=1e-13)
+        np.testing.assert_allclose(values, fine[:, 2] ** 2, atol=1e-12)
+        corners = fine[faces]
+        area = 0.5 * np.linalg.norm(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]), axis=1).sum()
+        exact = 2 * np.pi * (1 + 4 / np.sqrt(3) * np.arcsin(np.sqrt(3) / 2))  # of semi-axes 1, 1 and 2; flat cells have less, by (pi/40)^2/4
+        self.assertAlmostEqual(area / exact, 1.0, delta=2e-3)
+        self.assertTrue(np.all(np.sum(np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]) * corners.mean(axis=1), axis=1) > 0))
+
+    def test_what_would_be_no_finer_stays(self):
+        membrane = (sphere(np.zeros(3)), None, None)
+        self.assertIs(plot_smooth.smooth(membrane, LATITUDES), membrane)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-import run_references
+from . import plot_references
 
 # Okabe and Ito's colours: told apart by colour-blind readers too, and by their line styles in print.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#B0A000"]
@@ -230,7 +230,7 @@ def draw(run):
     chosen = panels(run, courses)
     figure, axes = plt.subplots(len(chosen) + 1, 1, sharex=True, figsize=(7.5, 1.9 * len(chosen) + 2.9), constrained_layout=True, squeeze=False)
     axes = axes[:, 0]
-    references = run_references.of(run, courses)
+    references = plot_references.of(run, courses)
     for panel, quantity in zip(axes, chosen):
         _draw_quantity(panel, quantity, courses, references.get(quantity.key, []))
     _draw_errors(axes[-1], courses)

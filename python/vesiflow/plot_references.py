@@ -3,13 +3,10 @@
 """What theory says about a run, where the answer is known: values that pictures show beside what was computed."""
 
 import math
-import sys
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "validation"))
-from harness import theory  # noqa: E402
+from . import theory
 
 # Least (1/2) int H^2 dA by reduced volume: equilibrium_shape --branch prolate and oblate (docs/equilibrium_shapes.md).
 LEAST_ENERGY = {
@@ -21,7 +18,7 @@ LEAST_ENERGY = {
 
 
 def of(run, courses):
-    """Lists of (value, label) by the key of a panel (run_history.Quantity); none where vesicles differ in what decides it. A value of
+    """Lists of (value, label) by the key of a panel (plot_history.Quantity); none where vesicles differ in what decides it. A value of
     None has no place on the axis: the label says all."""
     flow = run.parameter("flow.type", "shear")
     result = {}
