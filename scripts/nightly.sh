@@ -91,7 +91,7 @@ browse() {
   scripts/viewer.sh
   build_for native
   logged build/browser.log "Reports in Chromium" viewer/test/browser.sh build/nightly-native/apps out/browser
-  grep -E '^. (tests|pass|fail) |bytes; first frame' build/browser.log
+  grep -E '(tests|pass|fail) [0-9]+$|bytes; first frame' build/browser.log
 }
 
 perform() {

@@ -29,9 +29,9 @@ export function takeTexts(page) {
   for (const id of ["results", "trust", "phases", "scene", "repeat", "about"]) {
     const [old, fresh] = [document.getElementById(id), page.getElementById(id)];
     if (!old || !fresh) continue;
-    const isOpen = old.querySelector("details")?.open;
+    const areOpen = [...old.querySelectorAll("details")].map((part) => part.open);
     old.replaceChildren(...fresh.childNodes);
-    if (isOpen) old.querySelector("details")?.setAttribute("open", "");
+    old.querySelectorAll("details").forEach((part, k) => (part.open = areOpen[k] ?? false));
   }
   document.querySelector("header").replaceChildren(...page.querySelector("header").childNodes);
 }

@@ -155,6 +155,29 @@ test("the inclination of what is drawn is that of the summary", async () => {
   await page.close();
 });
 
+test("the bending energy of the curvature that is drawn is that of the summary", async () => {
+  const { page, faults } = await open(browser, report("tank_treading"));
+  await choose(page, "Colour", "mean_curvature");
+  const energy = await page.evaluate(() => {
+    const { geometry } = globalThis.vesiflow.view.meshes.vesicles[0];
+    const p = geometry.attributes.position.array;
+    const curvature = geometry.attributes.value.array;
+    const index = geometry.index.array;
+    let sum = 0;
+    for (let k = 0; k < index.length; k += 3) {
+      const [a, b, c] = [0, 1, 2].map((d) => [...p.slice(3 * index[k + d], 3 * index[k + d] + 3)]);
+      const [e, f] = [b, c].map((q) => q.map((x, d) => x - a[d]));
+      const area = Math.hypot(e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]) / 2;
+      const mean = (curvature[index[k]] + curvature[index[k + 1]] + curvature[index[k + 2]]) / 3;
+      sum += 0.5 * mean ** 2 * area;
+    }
+    return sum;
+  });
+  assert.ok(Math.abs(energy / summaryOf("tank_treading").vesicles[0].bending_energy - 1) < 5e-3, String(energy));
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
 test("numbers on the page are those of summary.json", async () => {
   const { page, faults } = await open(browser, report("tank_treading"));
   const summary = summaryOf("tank_treading");

@@ -404,6 +404,7 @@ void describe_output(Plan& plan, const Scene& scene) {
             o.checkpoint_every > 0.0
                 ? fmt::format("{} and at the end, about {:.0f} MB", interval(o.checkpoint_every), 56e-6 * cells)
                 : interval(o.checkpoint_every));
+  plan.line("report.html", "{}", o.report ? "at the end, at most 3 MB" : "never: output.report = false");
 }
 
 // Shares are of one thread: phases gain alike from more.

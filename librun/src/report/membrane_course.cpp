@@ -19,6 +19,7 @@ namespace {
 // Finer structure than this is not to be seen on a page.
 constexpr int most_degrees = 64;
 constexpr int most_latitudes = 512;
+constexpr double most_value = 1e30;
 
 using Values = Eigen::ArrayXXd;  // (markers, membrane_columns)
 
@@ -87,7 +88,10 @@ MembraneCourse::Frame Reader::read(const std::filesystem::path& path, long step)
                                   path.filename().string(), group, rows, most_latitudes));
     latitudes.push_back(static_cast<int>(rows));
     const Values values = read_values(file, group, latitudes.back());
-    if (!values.allFinite()) throw FileError(fmt::format("{}: {} is not finite", path.filename().string(), group));
+    // What a float of the page cannot hold is as good as infinite.
+    if (!values.allFinite() || values.abs().maxCoeff() > most_value)
+      throw FileError(fmt::format("{}: {} has values that are not finite, or beyond {:g}", path.filename().string(),
+                                  group, most_value));
     vesicle::Coefficients coefficients;
     harmonics(latitudes.back()).analysis(values, coefficients);
     frame.vesicles.push_back(real_coefficients(coefficients, std::min(latitudes.back(), most_degrees)));

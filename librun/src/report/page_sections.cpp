@@ -103,15 +103,16 @@ const char* status_class(const std::string& status) {
   return "open";
 }
 
+// From the folder itself, so that the page names no path of the machine that it was made on.
 std::string command_to_repeat(const StoredRun& run) {
   const std::string program = run.text("program").empty() ? "vesicles" : run.text("program");
-  const std::string folder = run.folder.string();
-  std::vector<std::string> words = {program, folder + "/scene.toml"};
-  if (at(run.summary, "started_from").is_object()) words = {program, "--restart", folder + "/start.h5"};
-  words.insert(words.end(), {"--out", folder + "_again"});
+  const std::string name = run.folder.filename().string();
+  std::vector<std::string> words = {program, "scene.toml"};
+  if (at(run.summary, "started_from").is_object()) words = {program, "--restart", "start.h5"};
+  words.insert(words.end(), {"--out", "../" + name + "_again"});
   if (const Json& threads = at(run.summary, "threads"); threads.is_number_integer())
     words.insert(words.end(), {"--threads", threads.dump()});
-  return shell_line(words);
+  return shell_line(std::vector<std::string>{"cd", name}) + "\n" + shell_line(words);
 }
 
 }  // namespace
@@ -171,10 +172,10 @@ std::string results_section(const StoredRun& run) {
     if (!known.contains(name)) row(quantity_of(vesicle_quantities(), name));
   return section(
       "results", "What came out",
-      fmt::format(
-          "<p>Numbers at t = {}. Lengths are in effective radii r, times in units of 1/shear rate, stresses in "
-          "viscosity/time.</p>\n<div class=\"wide\"><table><thead><tr>{}</tr></thead><tbody>{}</tbody></table></div>\n",
-          number(at(run.summary, "time")), head, rows));
+      fmt::format("<p>Numbers at t = {}. Lengths are in effective radii r, times in units of 1/shear rate, stresses in "
+                  "viscosity/time.</p>\n<div "
+                  "class=\"wide\"><table{}><thead><tr>{}</tr></thead><tbody>{}</tbody></table></div>\n",
+                  number(at(run.summary, "time")), vesicles.size() == 1 ? " class=\"single\"" : "", head, rows));
 }
 
 std::string trust_section(const StoredRun& run) {
@@ -236,13 +237,15 @@ std::string phases_section(const StoredRun& run) {
 
 std::string scene_section(const StoredRun& run) {
   std::string body;
-  if (!run.plan.empty())
-    body += fmt::format("<h3>Plan</h3><pre class=\"text\" tabindex=\"0\">{}</pre>\n", escaped(run.plan));
-  if (!run.scene.empty())
-    body += fmt::format(
-        "<details><summary>The scene with every key, as it was run</summary><pre class=\"text\" "
-        "tabindex=\"0\">{}</pre></details>\n",
-        escaped(run.scene));
+  const auto add = [&](const char* title, const std::string& text) {
+    if (!text.empty())
+      body += fmt::format("<details><summary>{}</summary><pre class=\"text\" tabindex=\"0\">{}</pre></details>\n",
+                          title, escaped(text));
+  };
+  add("The scene with every key, as it was run", run.scene);
+  add("Its plan, as the program that made this page plans it: resolution, what each step computes and skips, and what "
+      "it takes",
+      run.plan);
   return section("scene", "What was asked", body.empty() ? "<p>The folder has no scene.</p>\n" : body);
 }
 

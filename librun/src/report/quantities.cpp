@@ -35,7 +35,11 @@ constexpr std::array of_vesicles = {
     Quantity{"unresolved_bending", "unresolved bending", "share", "mesh"},
     Quantity{"needed_latitudes", "needed latitudes", "", "mesh"},
     Quantity{"mesh_aspect_ratio", "mesh aspect ratio", "", "mesh"},
-    Quantity{"mesh_area_ratio", "mesh area ratio", "", "mesh"}};
+    Quantity{"mesh_area_ratio", "mesh area ratio", "", "mesh"},
+    Quantity{"redistributions", "redistributions of the markers", "", "mesh"},
+    Quantity{"marker_sub_steps", "sub-steps of the markers", "", "mesh"},
+    Quantity{"marker_rejected_sub_steps", "sub-steps repeated", "", "mesh"},
+    Quantity{"marker_evaluations", "evaluations of the markers' velocity", "", "mesh"}};
 
 constexpr std::array of_errors = {
     Quantity{"area", "area", "relative", "Change of the area of a whole vesicle."},

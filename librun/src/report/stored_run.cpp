@@ -10,6 +10,8 @@
 #include "files/file_error.h"
 #include "files/snapshot_series.h"
 #include "files/text_of.h"
+#include "run/plan.h"
+#include "run/scene.h"
 
 namespace vesiflow::run {
 namespace {
@@ -41,6 +43,18 @@ void read_diagnostics(StoredRun& run) {
   run.diagnostics.resize(run.diagnostics.rfind('\n') + 1);  // a row may be being written
   if (run.diagnostics.empty())
     run.missing.push_back(fmt::format("Numbers against time: {}.", why(run, "output.diagnostics_every")));
+}
+
+// A scene with a flow of a program's own, or with a file of a shape that is no longer there, has none.
+std::string plan_of(const StoredRun& run) {
+  if (run.scene.empty()) return "";
+  const double threads = run.number("threads");
+  try {
+    return describe_plan(load_scene(run.folder / "scene.toml"),
+                         threads >= 1.0 && threads < 1e6 ? static_cast<int>(threads) : 1, run.folder);
+  } catch (const std::exception&) {
+    return "";
+  }
 }
 
 void find_snapshots(StoredRun& run) {
@@ -86,7 +100,7 @@ StoredRun read_stored_run(const std::filesystem::path& folder) {
   read_diagnostics(run);
   run.scene = text_of(folder / "scene.toml");
   if (run.scene.empty()) run.missing.push_back("scene.toml: it is not in the folder.");
-  run.plan = text_of(folder / "plan.txt");
+  run.plan = plan_of(run);
   find_snapshots(run);
   return run;
 }

@@ -15,10 +15,10 @@ struct StoredRun {
   using Json = nlohmann::ordered_json;
 
   std::filesystem::path folder;
-  Json summary = Json::object();                           ///< summary.json, an empty object where that cannot be read
-  std::string diagnostics;                                 ///< whole lines of diagnostics.csv
-  std::string scene;                                       ///< scene.toml
-  std::string plan;                                        ///< plan.txt, which a user may have put there
+  Json summary = Json::object();  ///< summary.json, an empty object where that cannot be read
+  std::string diagnostics;        ///< whole lines of diagnostics.csv
+  std::string scene;              ///< scene.toml
+  std::string plan;               ///< of that scene, as this program makes it; empty where it cannot
   std::map<long, std::filesystem::path> membranes, fluid;  ///< snapshots by step
   std::vector<std::string> missing;                        ///< what could not be read and why, a sentence each
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -45,9 +46,9 @@ class Report : public RunInFolder {
 TEST_F(Report, IsWrittenAtTheEndOfARun) {
   run_scene(small_scene({"time.end=1/12", "output.vesicle_every=1/48"}), at("run"));
   const std::string text = page();
-  for (const char* part :
-       {"completed", "What came out", "How far it can be trusted", "Where the time went", "What was asked",
-        "How to repeat it", "Content-Security-Policy", "t = 0.08333", "class=\"membrane\"", "inclination"})
+  for (const char* part : {"completed", "What came out", "How far it can be trusted", "Where the time went",
+                           "What was asked", "How to repeat it", "Content-Security-Policy", "t = 0.08333", "Its plan",
+                           "tension number g", "class=\"membrane\"", "inclination"})
     EXPECT_TRUE(has(text, part)) << part;
   EXPECT_EQ(has(text, "It holds 5 of the 5 snapshots of the membranes."), report_has_viewer());
   EXPECT_EQ(has(text, "scripts/viewer.sh"), !report_has_viewer());
@@ -200,7 +201,40 @@ TEST_F(Report, NamesWhatIsDamaged) {
   EXPECT_TRUE(has(text, "vesicle_000000002.h5"));
   EXPECT_TRUE(has(text, "fluid_000000000.h5"));
   EXPECT_TRUE(has(text, "summary.json: it is damaged."));
+  EXPECT_TRUE(has(text, "tension number g"));
+  std::ofstream(at("run") / "scene.toml") << "[domain\n<b>";
+  const std::string other = report_of(at("run"));
+  EXPECT_TRUE(has(other, "[domain\n&lt;b&gt;"));
+  EXPECT_FALSE(has(other, "tension number g"));
   EXPECT_EQ(has(text, "It holds 4 of the 5 snapshots of the membranes"), report_has_viewer());
+}
+
+// The state that a run has blown up to may be written before it is noticed.
+TEST_F(Report, LeavesOutWhatIsNotFinite) {
+  run_scene(small_scene({"time.end=1/24", "output.vesicle_every=1/96"}), at("run"));
+  const StoredRun stored = read_stored_run(at("run"));
+  std::vector<double> tension = Hdf5File(stored.membranes.at(3), Hdf5File::Mode::read).read("/vesicle_0/tension");
+  for (const double value : {1e200, std::numeric_limits<double>::quiet_NaN()}) {
+    tension[100] = value;
+    Hdf5File old(stored.membranes.at(2), Hdf5File::Mode::read);
+    Hdf5File file(at("run") / "fake.h5", Hdf5File::Mode::create);
+    file.attribute("/", "time", 3.0 / 96.0);
+    file.attribute("/vesicle_0", "latitudes", std::int64_t{16});
+    file.attribute("/vesicle_0", "longitudes", std::int64_t{32});
+    for (const char* name : {"positions", "velocity"})
+      file.write(std::string("/vesicle_0/") + name, old.read(std::string("/vesicle_0/") + name).data(), {514, 3});
+    for (const char* name : {"mean_curvature", "local_area_error"})
+      file.write(std::string("/vesicle_0/") + name, old.read(std::string("/vesicle_0/") + name).data(), {514});
+    file.write("/vesicle_0/tension", tension.data(), {514});
+    file.close();
+    fs::rename(at("run") / "fake.h5", stored.membranes.at(3));
+    const MembraneCourse course = read_membranes(stored, 10);
+    EXPECT_EQ(course.frames.size(), 4U) << value;
+    ASSERT_EQ(course.missing.size(), 1U) << value;
+    EXPECT_NE(course.missing[0].find("vesicle_000000003.h5: /vesicle_0 has values that are not finite"),
+              std::string::npos)
+        << course.missing[0];
+  }
 }
 
 // JSON that is whole, but not what a run writes.
