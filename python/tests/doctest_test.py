@@ -5,8 +5,8 @@ import doctest
 import importlib
 import unittest
 
-MODULES = ["vesiflow", "vesiflow.coupling", "vesiflow.errors", "vesiflow.fluid", "vesiflow.plot_smooth", "vesiflow.progress", "vesiflow.results", "vesiflow.run",
-           "vesiflow.table", "vesiflow.vesicle"]
+MODULES = ["vesiflow"] + [f"vesiflow.{name}" for name in ("coupling", "errors", "flows", "fluid", "forces", "parts", "plot_smooth", "progress",
+                                                          "results", "run", "table", "vesicle")]
 
 
 def load_tests(loader, tests, pattern):

@@ -208,7 +208,7 @@ class Modules(unittest.TestCase):
         if not (source / "vesiflow").is_dir():
             self.skipTest("the sources are not beside the tests")
         for code in ("import vesiflow; vesiflow.Simulation", "import vesiflow.vesicle", "import vesiflow.coupling"):
-            ended = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(source)}, capture_output=True, text=True, check=False)
+            ended = subprocess.run([sys.executable, "-c", code], cwd=source, env={**os.environ, "PYTHONPATH": str(source)}, capture_output=True, text=True, check=False)
             self.assertEqual(ended.returncode, 1)
             self.assertIn("--target python_package", ended.stderr)
 

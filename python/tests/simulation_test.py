@@ -171,6 +171,23 @@ class Steps(InScratch):
                 whole.run(until=0.125, record_every=0)
                 np.testing.assert_array_equal(again.membranes[0].positions, whole.membranes[0].positions)
 
+    def test_the_number_of_threads_changes_no_bit(self):
+        before, found = coupling.threads(), []
+        try:
+            for count in (1, 2):
+                coupling.set_threads(count)
+                self.assertEqual(coupling.threads(), count)
+                simulation = vesiflow.Simulation(small(domain__cells=24))
+                for _ in range(2):
+                    simulation.step()
+                found.append((simulation.membranes[0].positions, simulation.fluid.velocity.x, simulation.fluid.pressure))
+        finally:
+            coupling.set_threads(before)
+        for one, two in zip(*found):
+            np.testing.assert_array_equal(one, two)
+        with self.assertRaisesRegex(ValueError, "threads = 0: must be from 1 to 1024"):
+            coupling.set_threads(0)
+
     def test_the_lock_of_the_interpreter_is_released_in_steps(self):
         simulation = vesiflow.Simulation(small(domain__cells=32))
         simulation.step()

@@ -29,21 +29,27 @@ import contextlib
 import math
 import signal
 import threading
-import weakref
-from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, Mapping, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
-from .fluid import Grid, Velocity  # first: it says what is missing where nothing is built
+from .parts import Fluid, Membrane, Membranes  # first: it says what is missing where nothing is built
 from . import _coupling
+from .flows import (
+    Flow,
+    VectorFunction,
+    as_flow,
+    custom_flow,
+    duct_flow,
+    extension_flow,
+    flow_at_rest,
+    oscillating_shear_flow,
+    plane_poiseuille_flow,
+    shear_flow,
+)
+from .forces import ForcedSurface, Forces, MembraneForce
 from .progress import ProgressBar
 from .table import Table
-
-Array = NDArray[np.float64]
-Point = tuple[float, float, float]
-#: u(x, t): three numbers at a point x (a tuple of three) and time t. Of flows and of forces per volume of the fluid.
-VectorFunction = Callable[[Point, float], Sequence[float]]
 
 __all__ = ["Flow", "Fluid", "ForcedSurface", "Membrane", "Membranes", "Simulation", "custom_flow", "duct_flow", "extension_flow",
            "flow_at_rest", "oscillating_shear_flow", "plane_poiseuille_flow", "set_threads", "shear_flow", "threads"]
@@ -59,75 +65,6 @@ def set_threads(count: int) -> None:
     if not 1 <= count <= 1024:
         raise ValueError(f"threads = {count}: must be from 1 to 1024")
     _coupling.set_threads(count)
-
-
-# ---- flows ----
-
-
-class Flow:
-    """A flow without vesicles: what walls do and what drives it. Made by the functions below."""
-
-    def __init__(self, make: Callable[[Any], Any], name: str) -> None:
-        self._make, self._name = make, name
-
-    def in_domain(self, parameters: Any) -> Any:
-        """As the library has it, in the domain of parameters."""
-        return self._make(parameters)
-
-    def __repr__(self) -> str:
-        return f"<{self._name}>"
-
-
-def flow_at_rest() -> Flow:
-    """u = 0."""
-    return Flow(_coupling.flow_at_rest, "fluid at rest")
-
-
-def shear_flow(rate: float = 1.0) -> Flow:
-    """u = (rate z, 0, 0)."""
-    return Flow(lambda p: _coupling.shear_flow(p, rate), f"shear flow of rate {rate:g}")
-
-
-def oscillating_shear_flow(rate: float = 1.0, angular_frequency: float = 1.0) -> Flow:
-    """u = (rate cos(omega t) z, 0, 0)."""
-    return Flow(lambda p: _coupling.oscillating_shear_flow(p, rate, angular_frequency), f"shear flow of rate {rate:g} cos({angular_frequency:g} t)")
-
-
-def extension_flow(rate: float = 1.0, kind: str = "planar") -> Flow:
-    """Planar u = rate (x, 0, -z) or uniaxial u = rate (x, -y/2, -z/2)."""
-    if kind not in ("planar", "uniaxial"):
-        raise ValueError(f"kind = {kind!r}: allowed are planar, uniaxial")
-    return Flow(lambda p: _coupling.extension_flow(p, rate, kind == "uniaxial"), f"{kind} extension of rate {rate:g}")
-
-
-def plane_poiseuille_flow(peak_velocity: float = 1.0) -> Flow:
-    """u = (peak (1 - (z/H)^2), 0, 0) between walls at z = -H and H from the middle of the box."""
-    return Flow(lambda p: _coupling.plane_poiseuille_flow(p, peak_velocity), f"plane Poiseuille flow, at most {peak_velocity:g}")
-
-
-def duct_flow(peak_velocity: float = 1.0) -> Flow:
-    """Flow along x in a duct, between walls normal to y and z."""
-    return Flow(lambda p: _coupling.duct_flow(p, peak_velocity), f"flow in a duct, at most {peak_velocity:g}")
-
-
-def custom_flow(velocity: VectorFunction, *, unsteady: bool = False, may_be_periodic: Sequence[bool] = (False, False, False),
-                driving_force: float = 0.0, greatest_gradient: float = 0.0) -> Flow:
-    """A flow of one's own: u(x, t) gives three numbers at a point x, a tuple of three. It is called on the walls, at time 0 inside too, and
-    again in each step where it is `unsteady`.
-
-    - `may_be_periodic`: along which axes it repeats;
-    - `driving_force`: force per volume along x in the place of a pressure drop, where x is periodic;
-    - `greatest_gradient`: of a velocity component, for adaptive steps and advice; 0: not known.
-    """
-    if not callable(velocity):
-        raise TypeError(f"a flow is a function u(x, t), not {velocity!r}")
-    return Flow(lambda p: _coupling.custom_flow(velocity, unsteady, [bool(b) for b in may_be_periodic], driving_force, greatest_gradient),
-                f"the flow {getattr(velocity, '__name__', 'of a function')}")
-
-
-def as_flow(flow: Union[Flow, VectorFunction]) -> Flow:
-    """A function as a steady flow."""
-    return flow if isinstance(flow, Flow) else custom_flow(flow)
 
 
 # ---- parameters ----
@@ -162,180 +99,7 @@ def flattened(values: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     return flat
 
 
-# ---- what a simulation has ----
-
-
-class Membrane:
-    """A membrane of a simulation. Its arrays are views of the simulation's memory, read-only: they are of the present time until the next step,
-    and live as long as they are referred to. Copy what you want to keep: `membrane.positions.copy()`."""
-
-    def __init__(self, simulation: Simulation, index: int) -> None:
-        self._simulation, self.index = simulation, index
-
-    def _array(self, name: str) -> Array:
-        return self._simulation._core_at_rest().membrane_array(self.index, name)
-
-    @property
-    def latitudes(self) -> int:
-        """N, of 2 N^2 markers."""
-        return self._simulation._core_at_rest().latitudes(self.index)
-
-    @property
-    def positions(self) -> Array:
-        """Of the markers, shape (markers, 3), in effective radii."""
-        return self._array("positions")
-
-    @property
-    def velocity(self) -> Array:
-        """Of the fluid at the markers in the last step, shape (markers, 3)."""
-        return self._array("velocity")
-
-    @property
-    def force(self) -> Array:
-        """The membrane's own force on the fluid per area in the last step, shape (markers, 3), without gravity and repulsion. Zero before
-        the first step."""
-        return self._array("force")
-
-    @property
-    def tension(self) -> Array:
-        """Shape (markers,), of the last step; zero before the first."""
-        return self._array("tension")
-
-    @property
-    def mean_curvature(self) -> Array:
-        """Mean of the principal curvatures, shape (markers,)."""
-        return self._array("mean_curvature")
-
-    @property
-    def gaussian_curvature(self) -> Array:
-        """Product of the principal curvatures, shape (markers,)."""
-        return self._array("gaussian_curvature")
-
-    @property
-    def normal(self) -> Array:
-        """Outward unit normal, shape (markers, 3)."""
-        return self._array("normal")
-
-    @property
-    def area_weight(self) -> Array:
-        """Areas of the markers' cells, shape (markers,): weights of integrals over the membrane."""
-        return self._array("area_weight")
-
-    @property
-    def local_area_error(self) -> Array:
-        """dA/dA0 - 1 against the target areas, shape (markers,): a new array."""
-        return self._array("area_weight") / self._array("target_areas") - 1
-
-    def surface(self):
-        """A vesiflow.vesicle.Surface of its own with the same markers, which stays as it is."""
-        from .vesicle import Surface
-
-        return Surface(self.positions)
-
-    def __repr__(self) -> str:
-        return f"<Membrane {self.index} of {self._simulation!r}>"
-
-
-class Membranes(Sequence[Membrane]):
-    """The membranes of a simulation, by number."""
-
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
-
-    def __len__(self) -> int:
-        return self._simulation._core.vesicle_count()
-
-    def __getitem__(self, index):
-        if isinstance(index, slice):
-            return [self[i] for i in range(*index.indices(len(self)))]
-        if not -len(self) <= index < len(self):
-            raise IndexError(f"there is no membrane {index}: there are {len(self)}")
-        return Membrane(self._simulation, index % len(self))
-
-
-class Fluid:
-    """The fluid of a simulation. Its arrays are views, as those of `Membrane`."""
-
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
-
-    @property
-    def velocity(self) -> Velocity:
-        """Three arrays at the faces of the grid."""
-        return Velocity(*self._simulation._core_at_rest().velocity())
-
-    @property
-    def pressure(self) -> Array:
-        """At the centres of the cells, shape (nx, ny, nz), of zero mean, in mu_o times shear rate."""
-        return self._simulation._core_at_rest().pressure()
-
-    @property
-    def viscosity(self) -> Optional[Array]:
-        """The field of viscosity of the last step, shape (nx, ny, nz); None where there is none: 1 everywhere, or sharp membranes."""
-        return self._simulation._core_at_rest().viscosity()
-
-    @property
-    def grid(self) -> Grid:
-        """With the coordinates of the points."""
-        p = self._simulation.parameters
-        return Grid(p["domain.lower"], p["domain.upper"], p["domain.cells"], p["domain.periodic"], p["domain.mirror"])
-
-    def max_divergence(self) -> float:
-        """Greatest |div u|: round-off when all is well, but for sharp membranes."""
-        return self._simulation._core_at_rest().max_divergence()
-
-
-class ForcedSurface:
-    """The membrane that a force is asked for: its arrays are new ones, of the geometry that the force is of. It can be read while the force is
-    called."""
-
-    def __init__(self, core: Any) -> None:
-        self._core = core
-
-    positions = property(lambda self: self._core.field("positions"), doc="Of the markers, shape (markers, 3).")
-    normal = property(lambda self: self._core.field("normal"), doc="Outward unit normal, shape (markers, 3).")
-    area_weight = property(lambda self: self._core.field("area_weight"), doc="Areas of the markers' cells, shape (markers,).")
-    mean_curvature = property(lambda self: self._core.field("mean_curvature"), doc="Shape (markers,).")
-    gaussian_curvature = property(lambda self: self._core.field("gaussian_curvature"), doc="Shape (markers,).")
-    area = property(lambda self: self._core.area(), doc="Of the membrane.")
-    volume = property(lambda self: self._core.volume(), doc="That it encloses.")
-
-
-#: f(t, vesicle, surface): a force on the fluid per area of the membrane, (markers, 3), or three numbers for all markers, or None.
-MembraneForce = Callable[[float, int, ForcedSurface], Optional[ArrayLike]]
-
-
-class _Forces:
-    """The functions that a simulation calls. The library refers to this by weak references, so that a function may refer to the simulation and
-    both go when nothing else does."""
-
-    def __init__(self) -> None:
-        self.on_membranes: list[MembraneForce] = []
-        self.on_fluid: Optional[Callable] = None
-        self.of_arrays = False
-
-    def attach_membranes(self, core: Any) -> None:
-        this = weakref.ref(self)
-
-        def on_membrane(t: float, vesicle: int, surface: Any) -> Optional[Array]:
-            forces = this()
-            total = None
-            for force in forces.on_membranes if forces else ():
-                added = force(t, vesicle, ForcedSurface(surface))
-                if added is not None:
-                    total = np.asarray(added, dtype=float) if total is None else total + np.asarray(added, dtype=float)
-            return total
-
-        core.add_force(on_membrane)
-
-    def attach_fluid(self, core: Any) -> None:
-        this = weakref.ref(self)
-
-        def on_fluid(*place: Any) -> Any:
-            forces = this()
-            return forces.on_fluid(*place) if forces and forces.on_fluid else (0.0, 0.0, 0.0)
-
-        core.set_fluid_force(on_fluid if self.on_fluid else None, self.of_arrays)
+# ---- simulations ----
 
 
 @contextlib.contextmanager
@@ -374,7 +138,7 @@ class Simulation:
     def _prepare(self) -> None:
         self._busy = threading.Lock()
         self._failed: Optional[str] = None
-        self._forces = _Forces()
+        self._forces = Forces()
         self._rows: list[dict] = []
 
     # -- steps --
