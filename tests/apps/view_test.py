@@ -92,13 +92,17 @@ class Report(unittest.TestCase):
             with self.assertRaisesRegex(view.ReportError, "VESIFLOW_APPS"):
                 view.find_report_app()
 
-    def test_exit_code_is_that_of_the_app(self):
-        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ, VESIFLOW_APPS=str(APP.parent)):
-            self.assertEqual(view.report_main([folder, "--quiet"]), 4)
+    # Without the library, as here, where the module is not one of its package.
+    def test_the_command_writes_by_the_app(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ, VESIFLOW_APPS=str(APP.parent)), mock.patch("sys.stderr"), \
+                mock.patch("sys.stdout"):
+            self.assertEqual(view.report_main([folder]), 4)
             Path(folder, "summary.json").write_text("{}")
-            self.assertEqual(view.report_main([folder, "--quiet"]), 0)
+            self.assertEqual(view.report_main([folder]), 0)
             self.assertTrue(Path(folder, "report.html").exists())
-            self.assertEqual(view.report_main([folder, "--frames", "0"]), 2)
+            with self.assertRaises(SystemExit) as end:
+                view.report_main([folder, "--frames", "0"])
+            self.assertEqual(end.exception.code, 2)
 
     def test_bad_options_are_named(self):
         for arguments in (["/nowhere"], [".", "--port", "70000"]):
