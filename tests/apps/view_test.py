@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Vesiflow authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""python/vesiflow/view.py APP: what the server of a run under way answers, and to whom. Its argument is the app `report`."""
+"""python/vesiflow/view.py without the package's bindings: what the server of a run under way answers, and to whom. Its argument is the app `report`."""
 
 import http.client
 import importlib.util
@@ -94,16 +94,15 @@ class Report(unittest.TestCase):
 
     def test_exit_code_is_that_of_the_app(self):
         with tempfile.TemporaryDirectory() as folder, mock.patch.dict(os.environ, VESIFLOW_APPS=str(APP.parent)):
-            self.assertEqual(view.report_main([folder, "--quiet"]), 4)
+            self.assertEqual(view.report_main([folder]), 4)
             Path(folder, "summary.json").write_text("{}")
-            self.assertEqual(view.report_main([folder, "--quiet"]), 0)
+            self.assertEqual(view.report_main([folder]), 0)
             self.assertTrue(Path(folder, "report.html").exists())
-            self.assertEqual(view.report_main([folder, "--frames", "0"]), 2)
 
     def test_bad_options_are_named(self):
-        for arguments in (["/nowhere"], [".", "--port", "70000"]):
+        for main, arguments in ((view.view_main, ["/nowhere"]), (view.view_main, [".", "--port", "70000"]), (view.report_main, [".", "--frames", "0"])):
             with self.assertRaises(SystemExit) as end, mock.patch("sys.stderr"):
-                view.view_main(arguments)
+                main(arguments)
             self.assertEqual(end.exception.code, 2)
 
 
