@@ -26,8 +26,8 @@ python_packages=(python3-dev pybind11-dev python3-pybind11 python3-setuptools py
 test_packages=(pkgconf libgtest-dev libgmock-dev libbenchmark-dev libsundials-dev)
 test_headers=(gtest/gtest.h benchmark/benchmark.h sundials/sundials_config.h)
 # With the run-time libraries of clang's sanitizers, fuzzer and OpenMP; llvm names the lines in their reports.
-dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr doxygen)
-dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr doxygen)
+dev_packages=(git clang-format clang-tidy shellcheck clang libclang-rt-dev libomp-dev llvm valgrind gcovr doxygen mypy)
+dev_commands=(git clang-format clang-tidy shellcheck clang++ valgrind gcovr doxygen mypy)
 
 # Whatever their packages are called: Node of its makers brings npm along.
 add_unless_there() {

@@ -203,6 +203,15 @@ class Modules(unittest.TestCase):
             for other in without:
                 self.assertNotIn(f"libvesiflow_{other}.so", loaded)
 
+    def test_without_compiled_parts_what_to_do_is_said(self):
+        source = pathlib.Path(__file__).resolve().parents[1]
+        if not (source / "vesiflow").is_dir():
+            self.skipTest("the sources are not beside the tests")
+        for code in ("import vesiflow; vesiflow.Simulation", "import vesiflow.vesicle", "import vesiflow.coupling"):
+            ended = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(source)}, capture_output=True, text=True, check=False)
+            self.assertEqual(ended.returncode, 1)
+            self.assertIn("--target python_package", ended.stderr)
+
     def test_results_are_read_without_any_compiled_part(self):
         self.assertEqual(self.loaded_by("import vesiflow.results, vesiflow.plot_history, vesiflow.plot_membranes").strip(), "[]")
 

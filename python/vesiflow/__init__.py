@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from .run import Scene, Simulation
 
 __all__ = ["FileError", "MissingData", "ParameterError", "Scene", "SceneError", "Simulation", "SimulationStopped", "VesiflowError",
-           "coupling", "fluid", "open", "results", "run", "vesicle"]
+           "coupling", "fluid", "results", "run", "vesicle"]  # and open, which "from vesiflow import *" must not put in the place of Python's
 
 _MODULES = ("coupling", "fluid", "results", "run", "vesicle", "view")
 _ELSEWHERE = {"Simulation": "run", "Scene": "run", "open": "results"}
@@ -49,7 +49,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, "open"})
 
 
 def _version() -> str:

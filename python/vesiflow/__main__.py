@@ -55,6 +55,8 @@ def _carry_out(arguments: argparse.Namespace) -> int:
         if arguments.plan:
             print(scene.plan(out or "."), end="")
             return 0
+        if warning := scene.memory_warning():
+            print(f"warning: {warning}", file=sys.stderr)
         words = ["vesiflow", "run"] + (["--threads", str(arguments.threads)] if arguments.threads else []) + ["--quiet"] * arguments.quiet
         ended = runs.run(scene, out, restart=arguments.restart, start_from=arguments.start_from, quiet=arguments.quiet, command=words)
     except KeyboardInterrupt:
@@ -110,7 +112,10 @@ def main(argv: Optional[Sequence[str]] = None) -> int:
         return 0
     if words[0] not in COMMANDS:
         return _failed(2, f"there is no command {words[0]!r}: there are {', '.join(COMMANDS)}")
-    return COMMANDS[words[0]](words[1:])
+    try:
+        return COMMANDS[words[0]](words[1:])
+    except ImportError as error:
+        return _failed(1, error)
 
 
 if __name__ == "__main__":

@@ -35,8 +35,8 @@ from typing import Any, Callable, Iterator, Mapping, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .fluid import Grid, Velocity  # first: it says what is missing where nothing is built
 from . import _coupling
-from .fluid import Grid, Velocity
 from .progress import ProgressBar
 from .table import Table
 
@@ -369,7 +369,7 @@ class Simulation:
         core_parameters = _coupling.Parameters(flattened(parameters))
         chosen = shear_flow() if flow is None else as_flow(flow)
         self._prepare()
-        self._core = _coupling.Simulation(core_parameters, chosen.in_domain(core_parameters))
+        self._core: Any = _coupling.Simulation(core_parameters, chosen.in_domain(core_parameters))
 
     def _prepare(self) -> None:
         self._busy = threading.Lock()
@@ -426,22 +426,23 @@ class Simulation:
 
         Ctrl-C ends the run between two steps with KeyboardInterrupt: the state is whole and can go on or be saved.
         """
-        begin, end = self.time, self.parameters["time.end"] if until is None else float(until)
+        parameters = self.parameters
+        begin, end = self.time, parameters["time.end"] if until is None else float(until)
         if not math.isfinite(end):
             raise ValueError(f"until = {until}: must be finite")
         every = self._usual_interval() if record_every is None else record_every
         if not every >= 0:
             raise ValueError(f"record_every = {record_every}: must be >= 0")
-        bar = ProgressBar(end, begin) if progress else contextlib.nullcontext()
-        with _deferred_interrupt() as interrupted, bar:
+        bar = ProgressBar(end, begin) if progress else None
+        with _deferred_interrupt() as interrupted, bar or contextlib.nullcontext():
             if every and not self._rows:
                 self.record()
             while not self._has_reached(until, end) and not interrupted():
                 with self._in_use():
                     self._step()
-                if every and self._is_due(every):
+                if every and self._is_due(every, parameters["time.adaptive"]):
                     self.record()
-                if progress:
+                if bar:
                     bar.show(self.time, self.steps)
                 if callback is not None and callback(self) is True:
                     break
@@ -449,11 +450,11 @@ class Simulation:
                 self.record()
         return self
 
-    def _is_due(self, every: float) -> bool:
+    def _is_due(self, every: float, adaptive: bool) -> bool:
         """Whether this is the step for a multiple of `every`: of equal steps the nearest, of adaptive ones the first at or beyond it. The
         programs take the same."""
         time, dt = self.time, self.time_step
-        if self.parameters["time.adaptive"]:
+        if adaptive:
             return math.floor(time / every + 1e-9) > math.floor((time - dt) / every + 1e-9)
         return math.floor((time + 0.5 * dt) / every) > math.floor((time - 0.5 * dt) / every)
 

@@ -61,3 +61,11 @@ class FileError(VesiflowError, OSError):
 
 class MissingData(VesiflowError):
     """A run has not written what is asked for. The message says why."""
+
+
+def not_built(error: ImportError) -> ImportError:
+    """What to say where a compiled module is missing; other reasons stay as they are."""
+    if "cannot import name" not in str(error):
+        return error
+    return ImportError("the compiled part of vesiflow is not there. In a source tree: cmake --preset release && cmake --build --preset release "
+                       "--target python_package, then scripts/python.sh; or pip install . (docs/python.md)", name=error.name)

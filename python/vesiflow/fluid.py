@@ -17,12 +17,17 @@ Bad values raise ValueError with the value and what is allowed.
 """
 from __future__ import annotations
 
-from typing import Callable, NamedTuple, Optional, Sequence, Union
+from typing import Callable, NamedTuple, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _fluid
+from .errors import not_built
+
+try:
+    from . import _fluid
+except ImportError as error:
+    raise not_built(error) from None
 
 Array = NDArray[np.float64]
 Point = tuple[float, float, float]
@@ -49,6 +54,14 @@ def _three(value, kind: type) -> list:
     return [kind(value)] * 3 if np.ndim(value) == 0 else [kind(v) for v in value]
 
 
+T = TypeVar("T")
+
+
+def _tuple_of(three: Sequence[T]) -> tuple[T, T, T]:
+    x, y, z = three
+    return x, y, z
+
+
 class Grid:
     """A box cut into equal cells; axes end at walls, are periodic, or begin at a plane of symmetry (mirror).
 
@@ -67,27 +80,27 @@ class Grid:
     @property
     def lower(self) -> Point:
         """Lower corner."""
-        return tuple(self._core.lower)
+        return _tuple_of(self._core.lower)
 
     @property
     def upper(self) -> Point:
         """Upper corner."""
-        return tuple(self._core.upper)
+        return _tuple_of(self._core.upper)
 
     @property
     def cells(self) -> tuple[int, int, int]:
         """Number of cells along each axis."""
-        return tuple(self._core.cells)
+        return _tuple_of(self._core.cells)
 
     @property
     def periodic(self) -> tuple[bool, bool, bool]:
         """Which axes repeat."""
-        return tuple(self._core.periodic)
+        return _tuple_of(self._core.periodic)
 
     @property
     def spacing(self) -> Point:
         """Mesh width along each axis."""
-        return tuple((u - l) / n for l, u, n in zip(self.lower, self.upper, self.cells))
+        return _tuple_of([(u - l) / n for l, u, n in zip(self.lower, self.upper, self.cells)])
 
     def cell_centres(self) -> tuple[Array, Array, Array]:
         """Coordinates of the centres of the cells along x, y and z."""

@@ -25,7 +25,7 @@ import numpy as np
 from .errors import MissingData
 from .table import Table
 
-__all__ = ["MissingData", "Run", "open"]
+__all__ = ["FluidSnapshot", "MembraneRecord", "MissingData", "Run", "Snapshot", "Snapshots"]
 
 
 def open(folder: Union[str, "os.PathLike[str]"]) -> Run:  # noqa: A001: vesiflow.open reads as it should
@@ -38,6 +38,11 @@ class _Snapshot:
 
     def __init__(self, run: Run, number: int) -> None:
         self._run, self.number = run, number
+
+    @property
+    def time(self) -> float:
+        """In 1/shear rate."""
+        raise NotImplementedError
 
     def __repr__(self) -> str:
         return f"<snapshot {self.number} of {self._run.folder}, t = {self.time:.6g}>"
@@ -116,7 +121,8 @@ class FluidSnapshot(_Snapshot):
     @property
     def cell_centres(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Coordinates along x, y and z."""
-        return tuple(self._run.fluid(self.number)[0])
+        x, y, z = self._run.fluid(self.number)[0]
+        return x, y, z
 
 
 class Snapshots(Sequence):

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import contextlib
+import functools
 import json
 import os
 import re
@@ -28,7 +29,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
 
-from . import _coupling, _run, coupling
+from . import coupling  # first: it says what is missing where nothing is built
+from . import _run
 from .coupling import Flow, VectorFunction, as_flow, flattened, set_threads, threads
 from .errors import SceneError
 from .results import Run
@@ -127,6 +129,8 @@ class Scene:
 
     def __init__(self, source: SceneSource, overrides: Overrides = None) -> None:
         words = _overrides(overrides)
+        self.name: str
+        self._core: Any
         if isinstance(source, Scene):
             self.name = source.name
             self._core = source._core if not words else _run.parse_scene(source.to_toml(), source.name, words)
@@ -168,6 +172,10 @@ class Scene:
         """What a run will compute, in words, and what it will take. Nothing of the size of the grid is allocated."""
         return self._core.plan(threads(), os.fspath(directory))
 
+    def memory_warning(self) -> str:
+        """What to say of a scene that is planned to take more memory than the machine has free; empty if it fits."""
+        return self._core.memory_warning()
+
     def __repr__(self) -> str:
         return f"<Scene {self.name}>"
 
@@ -176,7 +184,7 @@ def _parsed(text: str) -> dict[str, Any]:
     try:
         import tomllib
     except ImportError:  # before Python 3.11
-        import tomli as tomllib
+        import tomli as tomllib  # type: ignore
     return tomllib.loads(text)
 
 
@@ -349,7 +357,7 @@ def run(scene: Union[SceneSource, Simulation], out: Union[str, "os.PathLike[str]
     name = simulation._given.name
     folder = Path(out) if out is not None else Path("out") / (Path(name).stem if Path(name).suffix else Path(name).resolve().name)
 
-    def between(function: Optional[Callable], *arguments: Any) -> Any:
+    def between(function: Callable, *arguments: Any) -> Any:
         with simulation._between_steps():
             return function(simulation, *arguments)
 
@@ -361,8 +369,8 @@ def run(scene: Union[SceneSource, Simulation], out: Union[str, "os.PathLike[str]
         "start_from": None if start_from is None else os.fspath(start_from),
         "quiet": quiet,
         "command": list(command),
-        "after_step": None if after_step is None else lambda: between(after_step),
-        "before_output": None if before_output is None else lambda what: between(before_output, what),
+        "after_step": None if after_step is None else functools.partial(between, after_step),
+        "before_output": None if before_output is None else functools.partial(between, before_output),
         "diagnostics": {column: (lambda vesicle, of=of: between(of, vesicle)) for column, of in (diagnostics or {}).items()},
     }
     with simulation._in_use():

@@ -27,8 +27,12 @@ from typing import NamedTuple, Optional, Sequence, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _vesicle
-from .errors import FileError
+from .errors import FileError, not_built
+
+try:
+    from . import _vesicle
+except ImportError as error:
+    raise not_built(error) from None
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -101,7 +105,7 @@ class SphereGrid:
 
 def _with_fields(values: ArrayLike, axes: int, dtype: type) -> tuple[np.ndarray, bool]:
     """With an axis of fields at the end, and whether it was added."""
-    array = np.asarray(values, dtype=dtype)
+    array: np.ndarray = np.asarray(values, dtype=dtype)
     return (array[..., None], True) if array.ndim == axes else (array, False)
 
 
