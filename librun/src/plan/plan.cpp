@@ -21,6 +21,7 @@
 #include "plan/memory_plan.h"
 #include "plan/plan_totals.h"
 #include "plan/recommended_region.h"
+#include "plan/scene_plan.h"
 #include "plan/sharp_plan.h"
 #include "plan/viscosity_plan.h"
 #include "scene/accuracy.h"
@@ -428,7 +429,7 @@ void describe_costs(Plan& plan, const Scene& scene) {
 
 }  // namespace
 
-std::string describe_plan(const Scene& scene, int threads, const std::filesystem::path& directory) {
+std::string describe_scene_plan(const Scene& scene, int threads) {
   Plan plan;
   if (!scene.title.empty()) plan.head(scene.title);
   describe_resolution(plan, scene, threads);
@@ -436,7 +437,11 @@ std::string describe_plan(const Scene& scene, int threads, const std::filesystem
   describe_step(plan, scene);
   describe_output(plan, scene);
   describe_costs(plan, scene);
-  return plan.text() + describe_totals(scene, threads, directory);
+  return plan.text();
+}
+
+std::string describe_plan(const Scene& scene, int threads, const std::filesystem::path& directory) {
+  return describe_scene_plan(scene, threads) + describe_totals(scene, threads, directory);
 }
 
 }  // namespace vesiflow::run

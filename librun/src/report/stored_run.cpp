@@ -10,7 +10,7 @@
 #include "files/file_error.h"
 #include "files/snapshot_series.h"
 #include "files/text_of.h"
-#include "run/plan.h"
+#include "plan/scene_plan.h"
 #include "run/scene.h"
 
 namespace vesiflow::run {
@@ -50,8 +50,8 @@ std::string plan_of(const StoredRun& run) {
   if (run.scene.empty()) return "";
   const double threads = run.number("threads");
   try {
-    return describe_plan(load_scene(run.folder / "scene.toml"),
-                         threads >= 1.0 && threads < 1e6 ? static_cast<int>(threads) : 1, run.folder);
+    return describe_scene_plan(load_scene(run.folder / "scene.toml"),
+                               threads >= 1.0 && threads < 1e6 ? static_cast<int>(threads) : 1);
   } catch (const std::exception&) {
     return "";
   }

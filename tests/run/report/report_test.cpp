@@ -60,6 +60,13 @@ TEST_F(Report, IsWrittenAtTheEndOfARun) {
   }
 }
 
+// It has nothing of the moment in which it is made.
+TEST_F(Report, IsTheSameWheneverItIsMade) {
+  run_scene(small_scene({"time.end=1/24"}), at("run"));
+  EXPECT_EQ(report_of(at("run")), page());
+  EXPECT_FALSE(has(page(), "the file system of"));
+}
+
 // The numbers of summary.json stand in the page.
 TEST_F(Report, HasTheNumbersOfTheSummary) {
   run_scene(small_scene({"time.end=1/24"}), at("run"));
