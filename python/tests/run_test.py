@@ -241,6 +241,74 @@ class Modules(unittest.TestCase):
             vesiflow.nothing
 
 
+class WhenSomethingFails(InScratch):
+    def test_a_function_that_raises_leaves_a_folder_that_says_so_and_a_checkpoint_of_the_last_step(self):
+        def boom(simulation):
+            if simulation.steps == 7:
+                raise KeyError("my analysis failed")
+
+        folder = self.scratch / "boom"
+        with self.assertRaisesRegex(KeyError, "my analysis failed"):
+            runs.run(small(), folder, after_step=boom)
+        stored = vesiflow.open(folder)
+        self.assertEqual(stored.status, "stopped")
+        self.assertIn("my analysis failed", stored.summary["stop_reason"])
+        self.assertTrue((folder / "report.html").exists())
+        self.assertEqual(vesiflow.Simulation.restart(stored.checkpoint).steps, 7)
+        self.assertFalse((folder / "run.lock").exists())
+
+    def test_a_force_that_raises_within_a_step_keeps_the_last_good_checkpoint(self):
+        simulation = runs.Simulation(small())
+
+        def boom(time, vesicle, surface):
+            if time > 0.2:
+                raise RuntimeError("my force failed")
+            return np.zeros_like(surface.positions)
+
+        simulation.add_force(boom)
+        folder = self.scratch / "force"
+        with self.assertRaisesRegex(RuntimeError, "my force failed"):
+            runs.run(simulation, folder)
+        stored = vesiflow.open(folder)
+        self.assertEqual(stored.status, "stopped")
+        self.assertEqual(vesiflow.Simulation.restart(stored.checkpoint).steps, 6)  # output.checkpoint_every = 0.125
+
+    def test_snapshots_whose_files_are_gone_are_left_out(self):
+        folder = self.scratch / "run"
+        runs.run(small(), folder)
+        times = vesiflow.open(folder).snapshots.times
+        files = sorted((folder / "snapshots").glob("vesicle_*.h5"))
+        files[1].unlink()
+        files[2].write_bytes(files[2].read_bytes()[:100])
+        left = vesiflow.open(folder).snapshots
+        np.testing.assert_array_equal(left.times, np.delete(times, [1, 2]))
+        self.assertEqual(left[-1].time, times[-1])
+        self.assertEqual(left[-1].membranes[0].positions.shape, (16 * 32, 3))
+        for file in (folder / "snapshots").glob("vesicle_*.h5"):
+            file.unlink()
+        self.assertEqual(len(vesiflow.open(folder).snapshots), 0)
+        with self.assertRaisesRegex(vesiflow.MissingData, "gone or damaged"):
+            vesiflow.open(folder).membranes(-1)
+
+    def test_runs_side_by_side_stay_in_their_folder_and_say_which_did_not_start(self):
+        with self.assertRaisesRegex(ValueError, "no other folder"):
+            runs.run_all({"..": small()}, self.scratch / "all")
+        (self.scratch / "all").mkdir(exist_ok=True)
+        (self.scratch / "all" / "bad").write_text("in the way")
+        with self.assertRaisesRegex(vesiflow.MissingData, "bad: .*bad.log"):
+            runs.run_all({"good": small(), "bad": small()}, self.scratch / "all")
+        self.assertEqual(vesiflow.open(self.scratch / "all" / "good").status, "completed")
+
+    def test_titles_may_have_any_characters(self):
+        self.assertEqual(runs.Scene(small(title="run \U0001F600")).to_dict()["title"], "run \U0001F600")
+
+    def test_theory_refuses_what_is_no_reduced_volume(self):
+        self.assertGreater(vesiflow.theory.inclination(0.9, 1.0), 20.0)
+        for volume in (-1.0, 0.0, 1.0, 1.2, float("nan")):
+            with self.assertRaisesRegex(ValueError, f"reduced_volume = {volume}"):
+                vesiflow.theory.inclination(volume, 1.0)
+
+
 if __name__ == "__main__":
     if len(sys.argv) > 1 and pathlib.Path(sys.argv[1]).is_dir():
         APPS = pathlib.Path(sys.argv.pop(1)).resolve()

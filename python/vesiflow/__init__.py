@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from .run import Scene, Simulation
 
 __all__ = ["FileError", "MissingData", "ParameterError", "Scene", "SceneError", "Simulation", "SimulationStopped", "VesiflowError",
-           "coupling", "fluid", "results", "run", "vesicle"]  # and open, which "from vesiflow import *" must not put in the place of Python's
+           "coupling", "fluid", "results", "run", "theory", "vesicle"]  # and open, which "from vesiflow import *" must not put in the place of Python's
 
-_MODULES = ("coupling", "fluid", "results", "run", "vesicle", "view")
+_MODULES = ("coupling", "fluid", "results", "run", "theory", "vesicle", "view")
 _ELSEWHERE = {"Simulation": "run", "Scene": "run", "open": "results"}
 
 

@@ -84,14 +84,14 @@ class Snapshot(_Snapshot):
     def membranes(self) -> list[MembraneRecord]:
         """By number."""
         with self._run._open("vesicle", "output.vesicle_every") as file:
-            group = _step(file, self.number)
+            group = self._run._step("vesicle", file, self.number)
             shapes = [(name, int(group[name].attrs["latitudes"]), int(group[name].attrs["longitudes"])) for name in _vesicles_of(group)]
         return [MembraneRecord(self._reader(name), latitudes, longitudes) for name, latitudes, longitudes in shapes]
 
     def _reader(self, vesicle: str) -> Callable[[str], np.ndarray]:
         def read(name: str) -> np.ndarray:
             with self._run._open("vesicle", "output.vesicle_every") as file:
-                return _step(file, self.number)[vesicle][name][:]
+                return self._run._step("vesicle", file, self.number)[vesicle][name][:]
 
         return read
 
@@ -101,7 +101,7 @@ class FluidSnapshot(_Snapshot):
 
     def _array(self, name: str) -> np.ndarray:
         with self._run._open("fluid", "output.fluid_every") as file:
-            return _step(file, self.number)[name][:]
+            return self._run._step("fluid", file, self.number)[name][:]
 
     @property
     def time(self) -> float:
@@ -159,6 +159,7 @@ class Run:
         if not any((self.folder / name).exists() for name in names):
             raise MissingData(f"{self.folder} holds no run: none of {', '.join(names)} is there")
         self.summary = _read_json(self.folder / "summary.json")
+        self._listed: dict[str, tuple[list[str], list[str]]] = {}
 
     @property
     def status(self) -> str:
@@ -236,7 +237,7 @@ class Run:
     def membranes(self, number):
         """Snapshot by its number: for each vesicle points (count, 3), tension (count), and faces (count, 4), the cells between the markers."""
         with self._open("vesicle", "output.vesicle_every") as file:
-            group = _step(file, number)
+            group = self._step("vesicle", file, number)
             return [_membrane(group[name]) for name in _vesicles_of(group)]
 
     def fluid_times(self):
@@ -248,11 +249,29 @@ class Run:
         file = self._open("fluid", "output.fluid_every")
         lower, upper, cells = (np.asarray(file.attrs[key]) for key in ("lower", "upper", "cells"))
         centres = [lower[d] + (np.arange(cells[d]) + 0.5) * (upper[d] - lower[d]) / cells[d] for d in range(3)]
-        return centres, _step(file, number)["velocity"]
+        return centres, self._step("fluid", file, number)["velocity"]
 
     def _times(self, name, key):
         with self._open(name, key) as file:
-            return np.array([float(file["steps"][step].attrs["time"]) for step in sorted(file["steps"])])
+            return np.array([float(file["steps"][step].attrs["time"]) for step in self._steps(name, file)])
+
+    def _steps(self, name, file):
+        """Names of the snapshots in the order of time, without those whose file is gone or cannot be read."""
+        listed = sorted(file["steps"])
+        if self._listed.get(name, ([], []))[0] != listed:
+            self._listed[name] = listed, [step for step in listed if _is_readable(file["steps"], step)]
+        return self._listed[name][1]
+
+    def _step(self, name, file, number):
+        """The group of a snapshot by its number."""
+        path, readable = self.folder / f"{name}.h5", self._steps(name, file)
+        if not readable:
+            raise MissingData(f"{path} has no snapshot that can be read: its files in snapshots/ are gone or damaged")
+        step = readable[number]
+        try:
+            return file["steps"][step]
+        except (KeyError, OSError) as error:
+            raise MissingData(f"snapshot {step} of {path} cannot be read: {error}") from None
 
     def _open(self, name, key):
         path = self.folder / f"{name}.h5"
@@ -289,9 +308,12 @@ def _read_json(path):
         return {}
 
 
-def _step(file, number):
-    """The group of a snapshot by its number."""
-    return file["steps"][sorted(file["steps"])[number]]
+def _is_readable(steps, name):
+    """Whether the file that a snapshot is in can be opened."""
+    try:
+        return steps[name] is not None
+    except (KeyError, OSError):
+        return False
 
 
 def _vesicles_of(group):

@@ -32,7 +32,7 @@ from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Seque
 from . import coupling  # first: it says what is missing where nothing is built
 from . import _run
 from .coupling import Flow, VectorFunction, as_flow, flattened, set_threads, threads
-from .errors import SceneError
+from .errors import MissingData, SceneError
 from .results import Run
 
 SceneSource = Union[str, "os.PathLike[str]", Mapping[str, Any], "Scene"]
@@ -58,7 +58,7 @@ def _toml_value(key: str, value: Any) -> str:
     if isinstance(value, Fraction):
         return json.dumps(str(value)) if value.denominator > 1 else str(value.numerator)
     if isinstance(value, (str, os.PathLike)):
-        return json.dumps(os.fspath(value))
+        return json.dumps(os.fspath(value), ensure_ascii=False)
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml_value(key, item) for item in value) + "]"
     raise SceneError(f"scene: {key} = {value!r}: must be a number, text, True or False, or a list of these")
@@ -96,7 +96,7 @@ def to_toml(values: Mapping[str, Any]) -> str:
 
 
 def _toml_key(key: str) -> str:
-    return ".".join(part if re.fullmatch(r"[A-Za-z0-9_-]+", part) else json.dumps(part) for part in key.split("."))
+    return ".".join(part if re.fullmatch(r"[A-Za-z0-9_-]+", part) else json.dumps(part, ensure_ascii=False) for part in key.split("."))
 
 
 def _overrides(given: Overrides) -> list[str]:
@@ -394,8 +394,8 @@ def run_all(scenes: Mapping[str, SceneSource], out: Union[str, "os.PathLike[str]
     folder.mkdir(parents=True, exist_ok=True)
     files = {}
     for name, source in scenes.items():
-        if not re.fullmatch(r"[\w.+-]+", name):
-            raise ValueError(f"{name!r}: a name of a run may have letters, digits, and . _ + -")
+        if not re.fullmatch(r"[\w.+-]+", name) or name in (".", ".."):
+            raise ValueError(f"{name!r}: a name of a run may have letters, digits, and . _ + -, and names no other folder")
         try:
             text = Scene(source).to_toml()
         except SceneError as error:
@@ -411,4 +411,18 @@ def run_all(scenes: Mapping[str, SceneSource], out: Union[str, "os.PathLike[str]
 
     with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
         list(pool.map(carry_out, files))
-    return {name: Run(folder / name) for name in files}
+    found, missing = {}, []
+    for name in files:
+        try:
+            found[name] = Run(folder / name)
+        except MissingData:
+            missing.append(name)
+    if missing:
+        said = "; ".join(f"{name}: {_last_line(folder / f'{name}.log')} ({folder / f'{name}.log'})" for name in missing)
+        raise MissingData(f"of {len(files)} runs {len(missing)} did not start, the others are in {folder}: {said}")
+    return found
+
+
+def _last_line(log: Path) -> str:
+    lines = log.read_text(errors="replace").strip().splitlines()
+    return lines[-1] if lines else "it said nothing"

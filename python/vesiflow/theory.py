@@ -14,7 +14,12 @@ import numpy as np
 
 
 def prolate_axes(reduced_volume):
-    """Long and short semi-axis of the prolate of volume 4 pi/3, by bisection in the aspect ratio."""
+    """Long and short semi-axis of the prolate of volume 4 pi/3, by bisection in the aspect ratio.
+
+    Raises ValueError unless the reduced volume is in (0, 1).
+    """
+    if not 0 < reduced_volume < 1:
+        raise ValueError(f"reduced_volume = {reduced_volume}: must be > 0 and < 1")
 
     def volume_ratio(aspect):
         e = math.sqrt(1 - aspect**-2)

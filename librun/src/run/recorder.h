@@ -34,12 +34,13 @@ class Recorder {
   void rewind();
   /// Brings the lists of the snapshots up to date.
   void list_snapshots();
+  /// Whether it is due or not.
+  void write_checkpoint();
 
  private:
   bool wants(double every, bool last) const;
   void announce(RunOutput output) const;
   void write_diagnostics(RunLog& log);
-  void write_checkpoint();
   bool is_spoilt(RunLog& log) const;
 
   Parts run_;

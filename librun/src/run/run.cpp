@@ -38,6 +38,8 @@ class Run {
 
   RunStatus execute();
   [[noreturn]] void fail(const FileError& error);
+  /// What no library has thrown, but a function of the program: the folder says so and keeps what can be kept.
+  void abandon(const std::string& reason);
 
  private:
   bool is_complete() const;
@@ -62,6 +64,7 @@ class Run {
   RunRecord record_;
   std::optional<Recorder> recorder_;  // once there is something to record
   std::optional<RunLog> log_;         // the same
+  bool is_between_steps_ = true;      // the state is whole
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -170,9 +173,27 @@ void Run::fail(const FileError& error) {
   throw FileError(message);
 }
 
+void Run::abandon(const std::string& reason) {
+  if (!recorder_) return;  // nothing has been computed yet
+  try {
+    if (log_) log_->finish();
+    folder_.require_held();
+    if (is_between_steps_ && simulation_.scene().output.checkpoint_every > 0.0 &&
+        checkpoint_.step() < simulation_.steps())
+      recorder_->write_checkpoint();
+  } catch (const std::exception&) {
+  }
+  finish_stopped(
+      fmt::format("after step {} at t = {:.6g} a function of the program failed: {}\n  last good checkpoint: {}",
+                  simulation_.steps(), simulation_.time(), reason, checkpoint_.description()));
+  report();
+}
+
 void Run::take_step() {
   const PhaseTimer timer(record_.wall);
+  is_between_steps_ = false;
   simulation_.step();
+  is_between_steps_ = true;
   ++record_.steps_taken;
   record_.interface_passes += simulation_.interface_passes();
   record_.quality.observe_step(simulation_);
@@ -273,6 +294,13 @@ RunStatus run(SceneSimulation& simulation, const RunOptions& options) {
     run.fail(error);
   } catch (const std::filesystem::filesystem_error& failure) {
     run.fail(file_error(failure));
+  } catch (const coupling::SimulationStopped&) {
+    throw;  // it is in the folder
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    run.abandon(error.what());
+    throw;
   }
 }
 
