@@ -14,6 +14,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import time
 import unittest
 
 import h5py
@@ -298,6 +299,31 @@ class WhenSomethingFails(InScratch):
         with self.assertRaisesRegex(vesiflow.MissingData, "bad: .*bad.log"):
             runs.run_all({"good": small(), "bad": small()}, self.scratch / "all")
         self.assertEqual(vesiflow.open(self.scratch / "all" / "good").status, "completed")
+
+    def test_an_interrupt_of_the_process_alone_ends_runs_side_by_side(self):
+        script = self.scratch / "long.py"
+        script.write_text("from scenes import small\nfrom vesiflow import run\n"
+                          f"run.run_all({{'a': small(time__end=1000), 'b': small(time__end=1000)}}, {str(self.scratch / 'long')!r})\n")
+        process = subprocess.Popen([sys.executable, script], env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}, stderr=subprocess.DEVNULL)
+        self.addCleanup(process.kill)
+        summaries = [self.scratch / "long" / name / "summary.json" for name in "ab"]
+        deadline = time.monotonic() + 60
+        while not all(s.exists() and json.loads(s.read_text())["steps"] > 0 for s in summaries) and time.monotonic() < deadline:
+            time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        process.wait(60)
+        for summary in summaries:
+            self.assertEqual(json.loads(summary.read_text())["status"], "interrupted")
+            self.assertTrue((summary.parent / "checkpoint.h5").exists())
+
+    def test_damaged_files_are_named(self):
+        folder = self.scratch / "run"
+        runs.run(small(), folder)
+        (folder / "summary.json").write_text("[]")
+        self.assertEqual(vesiflow.open(folder).status, "unknown")
+        (folder / "diagnostics.csv").write_bytes(bytes(range(256)))
+        with self.assertRaisesRegex(vesiflow.MissingData, "diagnostics.csv"):
+            vesiflow.open(folder).table()
 
     def test_titles_may_have_any_characters(self):
         self.assertEqual(runs.Scene(small(title="run \U0001F600")).to_dict()["title"], "run \U0001F600")

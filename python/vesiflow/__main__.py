@@ -82,7 +82,10 @@ def _failed(code: int, error: object) -> int:
 def _plot(argv: Sequence[str]) -> int:
     from . import plot
 
-    return plot.main(argv)
+    try:
+        return plot.main(argv)
+    except OSError as error:  # a folder that cannot be written, a full disk
+        return _failed(4, error)
 
 
 def _of_view(name: str) -> Callable[[Sequence[str]], int]:

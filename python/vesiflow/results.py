@@ -223,9 +223,14 @@ class Run:
             raise MissingData(f"{path} is missing ({self._why('output.diagnostics_every')})")
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of a file without rows, and of a last row that is being written
-            table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1, invalid_raise=False)
+            try:
+                table = np.genfromtxt(path, delimiter=",", names=True, ndmin=1, invalid_raise=False)
+            except (OSError, ValueError) as error:  # bytes that are no text among them
+                raise MissingData(f"{path} is not readable: {error}") from None
         if table.dtype.names is None or table.size == 0:
             raise MissingData(f"{path} has no rows yet")
+        if "vesicle" not in table.dtype.names:
+            raise MissingData(f"{path} is damaged: it has no column vesicle")
         courses = [table[table["vesicle"] == v] for v in np.unique(table["vesicle"])]
         rows = min(len(course) for course in courses)
         return [{name: course[name][:rows] for name in table.dtype.names} for course in courses]
@@ -303,9 +308,10 @@ class Run:
 def _read_json(path):
     """An unreadable summary, or none, is an empty one: pictures need little of it."""
     try:
-        return json.loads(path.read_text())
+        found = json.loads(path.read_text())
     except (OSError, ValueError):
         return {}
+    return found if isinstance(found, dict) else {}
 
 
 def _is_readable(steps, name):

@@ -23,8 +23,10 @@ import functools
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
+import threading
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union
@@ -407,10 +409,23 @@ def run_all(scenes: Mapping[str, SceneSource], out: Union[str, "os.PathLike[str]
     def carry_out(name: str) -> None:
         command = [sys.executable, "-m", "vesiflow", "run", str(files[name]), "--out", str(folder / name), "--quiet"]
         with open(folder / f"{name}.log", "w") as log:
-            subprocess.run(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=environment, check=False)
+            if interrupted.is_set():
+                return
+            with subprocess.Popen(command, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=environment) as process:
+                under_way[name] = process
+                process.wait()
 
+    under_way: dict[str, subprocess.Popen] = {}
+    interrupted = threading.Event()
     with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
-        list(pool.map(carry_out, files))
+        try:
+            list(pool.map(carry_out, files))
+        except KeyboardInterrupt:  # at a terminal the runs have been told, too; where a notebook stops its process alone they have not
+            interrupted.set()
+            for process in list(under_way.values()):
+                if process.poll() is None:
+                    process.send_signal(signal.SIGINT)  # twice within a second is once
+            raise
     found, missing = {}, []
     for name in files:
         try:
