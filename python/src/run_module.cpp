@@ -24,26 +24,6 @@ using namespace run;
 
 constexpr std::array<const char*, 4> output_names{"diagnostics", "vesicle_snapshot", "fluid_snapshot", "checkpoint"};
 
-const char* name_of(RunStatus status) {
-  switch (status) {
-    case RunStatus::completed:
-      return "completed";
-    case RunStatus::interrupted:
-      return "interrupted";
-    case RunStatus::terminated:
-      return "terminated";
-    case RunStatus::hung_up:
-      return "hung up";
-    case RunStatus::user_signal_1:
-      return "user signal 1";
-    case RunStatus::user_signal_2:
-      return "user signal 2";
-    case RunStatus::out_of_time:
-      return "out of time";
-  }
-  return "unknown";
-}
-
 // A function of Python for each step and output, which takes no simulation: the caller has it.
 RunOptions options_of(const py::dict& given) {
   RunOptions options;

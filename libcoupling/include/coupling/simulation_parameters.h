@@ -214,7 +214,7 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   /// Whether a step of length dt solves the fluid a second time, with the forces that implicit terms stand for: sharp
   /// membranes, shape_following, and inertia that matters within a step: its viscous layer, sqrt(dt/Re), is thinner than
   /// the largest vesicle's radius. Otherwise the fluid has forgotten the velocity of the last step, and what it has not heard of
-  /// (docs/studies/stability_maps.md).
+  /// (docs/adr/0010-sharp-membranes.md).
   bool corrects_fluid(double dt) const;
   /// Whether meshes follow the shapes and not the material.
   bool follows_shape() const;

@@ -77,7 +77,12 @@ enum class RunStatus {
 /// \throws FileError when a file cannot be read or written, or another run has the directory.
 /// \throws coupling::SimulationStopped with step, time, cause and last checkpoint in its message when the run cannot go
 /// on.
+/// \throws what a function of the program throws, such as options.after_step. The summary then says "stopped" and why; where it was thrown between
+/// two steps the last one has a checkpoint.
 VESIFLOW_RUN_EXPORT RunStatus run(SceneSimulation& simulation, const RunOptions& options);
+
+/// What summary.json calls it.
+VESIFLOW_RUN_EXPORT const char* name_of(RunStatus status);
 
 /// Exit codes of programs, documented in docs/results.md.
 namespace exit_code {

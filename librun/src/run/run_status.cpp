@@ -25,6 +25,10 @@ const RunEnd& end_of(RunStatus status) {
   return *std::ranges::find(ends, status, &RunEnd::status);
 }
 
+const char* name_of(RunStatus status) {
+  return end_of(status).name;
+}
+
 std::optional<RunStatus> status_of_signal(int signal) {
   if (signal == 0) return std::nullopt;
   const auto* const end = std::ranges::find(ends, signal, &RunEnd::signal);

@@ -143,6 +143,17 @@ Errors errors_in(const Stream& stream) {
   return errors;
 }
 
+// Errors of a phase decay from step to step: 1 - 2 s/3, s its acceleration over the solved one, is between -1 and 1, with some room. And no
+// more is solved for than that takes.
+TEST(PhaseInertia, SolvesForAnAccelerationWithWhichBothPhasesForget) {
+  for (const double ratio : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 1.0, 5.0, 100.0}) {
+    const double solved = PhaseInertia::solved_reynolds_number(3.0, std::min(1.0, ratio)) / 3.0;
+    for (const double share : {1.0 / solved, 1.0 / ratio / solved})
+      EXPECT_LT(std::abs(1.0 - 2.0 * share / 3.0), 1.0) << ratio;
+    EXPECT_NEAR(solved, std::max(1.0, 0.4 / ratio), 1e-14) << ratio;
+  }
+}
+
 const Vector start(0.9, -0.5, 0.7), growth(2.0, 1.0, -3.0);
 
 TEST(PhaseInertia, GivesBothPhasesTheAccelerationOfAStreamThatCarriesThem) {

@@ -66,6 +66,24 @@ TEST_F(EndOfRun, EndsWithWhatACallbackThrows) {
   EXPECT_THROW(run(another, options), std::out_of_range);
 }
 
+// Whatever it is: the folder does not say "running" for ever, and what was computed between the checkpoints is there.
+TEST_F(EndOfRun, KeepsWhatWasComputedWhenACallbackThrowsAnythingElse) {
+  SceneSimulation simulation(small_scene({"time.end=0.1", "output.checkpoint_every=1"}));
+  RunOptions options = options_in(at("run"));
+  options.after_step = [](const SceneSimulation& now) {
+    if (now.steps() == 3) throw std::out_of_range("of the host");
+  };
+  EXPECT_THROW(run(simulation, options), std::out_of_range);
+  const std::string summary = text_of(at("run") / "summary.json");
+  EXPECT_NE(summary.find("\"status\": \"stopped\""), std::string::npos) << summary;
+  EXPECT_NE(summary.find("of the host"), std::string::npos) << summary;
+  SceneSimulation again(read_checkpoint_scene(at("run") / "checkpoint.h5"));
+  restore_checkpoint(at("run") / "checkpoint.h5", again);
+  EXPECT_EQ(again.steps(), 3);
+  EXPECT_TRUE(fs::exists(at("run") / report_name));
+  EXPECT_FALSE(fs::exists(at("run") / "run.lock"));
+}
+
 // The solver is made in the first step: libcoupling's error of a parameter is one of the scene by then too.
 TEST_F(EndOfRun, NamesTheSolverThatCannotBeHad) {
   const Scene scene = small_scene({"domain.cells=48", "membrane.g=2", "fluid.viscosity_ratio=5",
