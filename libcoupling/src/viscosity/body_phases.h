@@ -45,6 +45,9 @@ class BodyPhases {
   /// A component of w at two times, and of N, at the first of points_of(). N is w unless it is computed.
   struct Levels {
     const double *velocity, *earlier, *convection, *earlier_convection;
+    Levels from(std::ptrdiff_t at) const {
+      return {velocity + at, earlier + at, convection + at, earlier_convection + at};
+    }
   };
   struct AllLevels {
     Levels whole, outer, inner;  ///< as the grid has it, and of the phases

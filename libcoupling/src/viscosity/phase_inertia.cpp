@@ -44,6 +44,14 @@ bool all_finite(const fluid::FaceVector& field) {
   });
 }
 
+/// The range of a row beyond which all numbers are zero.
+std::pair<int, int> without_zeros(const double* row, int count) {
+  int begin = 0, end = count;
+  while (begin < end && row[begin] == 0.0) ++begin;
+  while (begin < end && row[end - 1] == 0.0) --end;
+  return {begin, end};
+}
+
 /// work(point) for the points of the band.
 template <class Work>
 void for_band(const GridBand& band, const Work& work) {
@@ -100,7 +108,7 @@ double PhaseInertia::prepare(const fluid::NavierStokes& fluid, double dt) {
 }
 
 // w as the grid has it, on the whole grid.
-BodyPhases::Levels PhaseInertia::everywhere(std::size_t component, const fluid::NavierStokes& fluid) const {
+PhaseInertia::Levels PhaseInertia::everywhere(std::size_t component, const fluid::NavierStokes& fluid) const {
   const auto data = [component](const fluid::FaceVector& field) { return field.points()[component].data; };
   const double *velocity = data(fluid.velocity()), *earlier = data(fluid.previous_velocity());
   if (convection_.empty()) return {velocity, earlier, velocity, earlier};
@@ -110,58 +118,63 @@ BodyPhases::Levels PhaseInertia::everywhere(std::size_t component, const fluid::
 // Arrays of the grid begin at the point (0, 0, 0). Each loop is over all bodies before the next one begins: a point may be in the boxes of
 // several.
 void PhaseInertia::prepare_component(std::size_t component, const fluid::NavierStokes& fluid) {
-  const Coefficients c = c_;
-  const double re = reynolds_number_, more = solved_ - reynolds_number_;
+  const Extrapolation to_next(c_);
+  const double re = reynolds_number_, more = solved_ - reynolds_number_, c0 = c_.c0;
   std::vector<BodyPart>& bodies = components_[component].bodies;
-  const fluid::View all = explicit_.points()[component];
-  double *const force = all.data, *const next = next_.points()[component].data;
-  const BodyPhases::Levels grid = everywhere(component, fluid);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     find_rows(component, b);
     find_shares(component, b);
   }
-  // work(row, point of the row)
-  const auto for_rows = [](const BodyPart& body, const auto& work) {
-    for (const Row& row : body.rows)
-#pragma omp simd
-      for (int i = 0; i < row.count; ++i) work(row, i);
-  };
-  // What the solver has more of than the outer phase.
-  const auto of_solver = [&](std::ptrdiff_t at) { return more * (c.c0 * next[at] + c.past(grid, 1.0, at)); };
+  find_pieces(component);
+  double* const all_force = explicit_.points()[component].data;
+  double* const all_next = next_.points()[component].data;
+  const Levels grid = everywhere(component, fluid);
+  // What the solver has more of than the outer phase, where it has another Reynolds number.
   if (more != 0.0)
-    for (int k = 0; k < all.extent[2]; ++k)
-      for (int j = 0; j < all.extent[1]; ++j) {
-        const std::ptrdiff_t first = j * all.row_stride + k * all.plane_stride;
+    for (const Piece& piece : components_[component].pieces)
 #pragma omp simd
-        for (std::ptrdiff_t at = first; at < first + all.extent[0]; ++at) {
-          next[at] = c.next(grid, at);
-          force[at] = of_solver(at);
-        }
+      for (std::ptrdiff_t at = piece.begin; at < piece.end; ++at) {
+        all_next[at] = to_next.velocity(grid, at);
+        all_force[at] = more * to_next.past(grid, 1.0, at);
       }
   for (const BodyPart& body : bodies)
-    for_rows(body, [&, w = body.w](const Row& row, int i) {
-      next[row.in_grid + i] =
-          c.next(grid, row.in_grid + i) + (c.next(w.outer, row.in_box + i) - c.next(w.whole, row.in_box + i));
-    });
+    for (const Row& row : body.rows) {
+      double *const force = all_force + row.in_grid, *const next = all_next + row.in_grid;
+      const Levels whole = body.w.whole.from(row.in_box), outer = body.w.outer.from(row.in_box),
+                   everywhere = grid.from(row.in_grid);
+#pragma omp simd
+      for (int i = 0; i < row.count; ++i) {
+        next[i] = to_next.velocity(everywhere, i) + (to_next.velocity(outer, i) - to_next.velocity(whole, i));
+        force[i] =
+            more * to_next.past(everywhere, 1.0, i) + re * (to_next.past(whole, 1.0, i) - to_next.past(outer, 1.0, i));
+      }
+    }
   for (const BodyPart& body : bodies)
-    for_rows(body, [&, w = body.w, share = body.share.data()](const Row& row, int i) {
-      if (share[row.in_shares + i] > 0.5) next[row.in_grid + i] = c.next(w.inner, row.in_box + i);
-    });
-  for (const BodyPart& body : bodies)
-    for_rows(body, [&, w = body.w](const Row& row, int i) {
-      const std::ptrdiff_t at = row.in_box + i;
-      force[row.in_grid + i] =
-          re * (c.past(w.whole, 1.0, at) - c.past(w.outer, 1.0, at)) + (more != 0.0 ? of_solver(row.in_grid + i) : 0.0);
-    });
+    for (const Row& row : body.rows) {
+      double* const next = all_next + row.in_grid;
+      const double* const share = body.share.data() + row.in_shares;
+      const Levels inner = body.w.inner.from(row.in_box);
+      const auto [begin, end] = without_zeros(share, row.count);
+#pragma omp simd
+      for (int i = begin; i < end; ++i) next[i] = share[i] > 0.5 ? to_next.velocity(inner, i) : next[i];
+    }
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    for_rows(bodies[b], [&, w = bodies[b].w, share = bodies[b].share.data(), ratio = bodies_[b].ratio](const Row& row,
-                                                                                                       int i) {
-      const std::ptrdiff_t at = row.in_box + i;
-      const double c0_next = c.c0 * next[row.in_grid + i];
-      force[row.in_grid + i] += share[row.in_shares + i] * re *
-                                ((c0_next + c.past(w.outer, 1.0, at)) - (c0_next + c.past(w.inner, ratio, at)) / ratio);
-    });
-  find_pieces(component);
+    for (const Row& row : bodies[b].rows) {
+      const double viscosity = bodies_[b].ratio, per_viscosity = 1.0 / viscosity;
+      double* const force = all_force + row.in_grid;
+      const double *const share = bodies[b].share.data() + row.in_shares, *const next = all_next + row.in_grid;
+      const Levels outer = bodies[b].w.outer.from(row.in_box), inner = bodies[b].w.inner.from(row.in_box);
+      const auto [begin, end] = without_zeros(share, row.count);
+#pragma omp simd
+      for (int i = begin; i < end; ++i)
+        force[i] += share[i] * re *
+                    ((c0 * next[i] + to_next.past(outer, 1.0, i)) -
+                     per_viscosity * (c0 * next[i] + to_next.past(inner, per_viscosity, i)));
+    }
+  if (more != 0.0)
+    for (const Piece& piece : components_[component].pieces)
+#pragma omp simd
+      for (std::ptrdiff_t at = piece.begin; at < piece.end; ++at) all_force[at] += more * c0 * all_next[at];
   components_[component].jumps.clear();
   for (std::size_t b = 0; b < bodies.size(); ++b) list_jumps(component, b);
 }

@@ -80,18 +80,25 @@ class PhaseInertia {
                const fluid::NavierStokes& fluid);
 
  private:
+  using Levels = BodyPhases::Levels;
   struct Coefficients {
     double c0 = 0.0, c1 = 0.0, c2 = 0.0, r = 0.0;
     bool convects = false;
+  };
+  /// From two times to the next.
+  struct Extrapolation {
+    explicit Extrapolation(const Coefficients& c)
+        : c1(c.c1), c2(c.c2), now(1.0 + c.r), before(c.r), n1(c.convects ? now : 0.0), n2(c.convects ? before : 0.0) {}
+    double c1, c2, now, before, n1, n2;
 
-    /// w^(k+1) extrapolated.
-    double next(const BodyPhases::Levels& w, std::ptrdiff_t at) const {
-      return (1.0 + r) * w.velocity[at] - r * w.earlier[at];
+    /// w^(k+1).
+    [[gnu::always_inline]] double velocity(const Levels& w, std::ptrdiff_t at) const {
+      return now * w.velocity[at] - before * w.earlier[at];
     }
     /// A without it.
-    double past(const BodyPhases::Levels& w, double viscosity, std::ptrdiff_t at) const {
-      const double n1 = convects ? (1.0 + r) / viscosity : 0.0, n2 = convects ? r / viscosity : 0.0;
-      return c1 * w.velocity[at] + c2 * w.earlier[at] + (n1 * w.convection[at] - n2 * w.earlier_convection[at]);
+    [[gnu::always_inline]] double past(const Levels& w, double per_viscosity, std::ptrdiff_t at) const {
+      return (c1 * w.velocity[at] + c2 * w.earlier[at]) +
+             per_viscosity * (n1 * w.convection[at] - n2 * w.earlier_convection[at]);
     }
   };
   /// Points along x that follow each other in the box of a body and in the grid.
@@ -134,7 +141,7 @@ class PhaseInertia {
   template <class Put>
   void for_jumps_inside(const Put& put);
   void keep_convection(std::size_t time, const fluid::FaceVector& velocity);
-  BodyPhases::Levels everywhere(std::size_t component, const fluid::NavierStokes& fluid) const;
+  Levels everywhere(std::size_t component, const fluid::NavierStokes& fluid) const;
 
   fluid::Grid grid_;
   std::vector<Body> bodies_;
