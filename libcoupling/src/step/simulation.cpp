@@ -42,11 +42,9 @@ std::unique_ptr<ViscosityContrast> contrast_of(const SimulationParameters& param
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters, const ViscosityContrast* contrast) {
   fluid::FluidParameters of_fluid = fluid_parameters_of(parameters);
   if (contrast != nullptr) of_fluid.viscosity = contrast->field();
-  if (parameters.has_phase_inertia()) {  // which has convection and all that a has too much
-    of_fluid.inertia = fluid::Inertia::unsteady;
+  if (parameters.has_phase_inertia())  // which takes off what that is too much
     of_fluid.reynolds_number =
         PhaseInertia::solved_reynolds_number(parameters.fluid.reynolds_number, parameters.viscosity_range().least);
-  }
   return of_fluid;
 }
 
@@ -273,7 +271,7 @@ SimulationState Simulation::state() const {
   state.clock.steps = steps();
   state.mean_flow = mean_flow_;
   if (phase_inertia_ && fluid_.steps() > 0) {
-    state.outer_velocities = phase_inertia_->outer_state();
+    state.outer_velocities = phase_inertia_->outer_state(fluid_);
     std::size_t body = 0;
     for (std::size_t i = 0; i < vesicles_.size(); ++i) {
       if (!vesicles_[i]->two_phase) continue;

@@ -163,8 +163,8 @@ void Simulation::clear_forces() {
   for (auto& v : vesicles_) v->clear(fluid_);
   if (fluid_force_)
     put_fluid_force();
-  else if (phase_inertia_)  // which is everywhere
-    fluid_.force().fill(0.0);
+  else if (phase_inertia_)
+    phase_inertia_->clear(fluid_.force());
 }
 
 // On one grid, in this order: sums are the same for any number of threads.
