@@ -288,7 +288,7 @@ void Simulation::check_mirrors(std::size_t i) const {
 void Simulation::keep_phases() {
   if (!phase_inertia_) return;
   const PhaseTimer timer(phases_.spread);
-  phase_inertia_->keep(fluid_.velocity());
+  phase_inertia_->keep(fluid_.velocity(), fluid_.clock().time_step);
 }
 
 // Without walls the mean of mu u is such that that of u is zero. The fluid's solver takes the sum of mu u over the points of

@@ -12,6 +12,7 @@
 
 #include "fluid/operators.h"
 #include "transfer/roomy.h"
+#include "viscosity/copy_field.h"
 #include "viscosity/grid_places.h"
 
 namespace vesiflow::coupling {
@@ -35,12 +36,6 @@ void for_storage(Field& field, const Visit& visit) {
   visit(field.z.data(), field.z.size());
 }
 
-void copy(const fluid::FaceVector& from, fluid::FaceVector& to) {
-  std::copy_n(from.x.data(), from.x.size(), to.x.data());
-  std::copy_n(from.y.data(), from.y.size(), to.y.data());
-  std::copy_n(from.z.data(), from.z.size(), to.z.data());
-}
-
 void add(const fluid::FaceVector& more, fluid::FaceVector& to) {
   const auto add_field = [](const auto& from, auto& sum) {
     std::transform(from.data(), from.data() + from.size(), sum.data(), sum.data(), std::plus<>());
@@ -57,32 +52,35 @@ BodyPhases::Phase::Phase(const fluid::Grid& grid, bool convects) : velocity(grid
 }
 
 // The outermost points have no neighbours on all sides.
-BodyPhases::Points BodyPhases::points_of(std::size_t now, std::size_t before) const {
+BodyPhases::Points BodyPhases::points_of(const Times& of) const {
   Points common{};
   if (boxes_.empty()) return common;
   for (const std::size_t axis : axes) {
-    const auto [low, high] = std::minmax(boxes_[now].first[axis], boxes_[before].first[axis]);
+    const auto first = [&](std::size_t back) { return boxes_[of[back]].first[axis]; };
+    const auto [low, high] = std::minmax({first(0), first(1), first(2)});
     common.first[axis] = high + 1;
     common.extent[axis] = std::max(0, low + points_[axis] - 1 - common.first[axis]);
   }
   return common;
 }
 
-BodyPhases::AllLevels BodyPhases::levels(std::size_t component, std::size_t now, std::size_t before) const {
-  const Points common = points_of(now, before);
+BodyPhases::AllLevels BodyPhases::levels(std::size_t component, const Times& of) const {
+  const Points common = points_of(of);
   const auto at_first = [&](std::size_t time, const fluid::FaceVector& field) {
     const fluid::ConstView view = field.points()[component];
     const std::array<int, 3>& first = boxes_[time].first;
     return view.row(common.first[1] - first[1], common.first[2] - first[2]) + (common.first[0] - first[0]);
   };
-  const auto of = [&](Phase Box::*phase) {
-    const Phase &late = boxes_[now].*phase, &early = boxes_[before].*phase;
-    return Levels{at_first(now, late.velocity), at_first(before, early.velocity),
-                  at_first(now, late.convection ? *late.convection : late.velocity),
-                  at_first(before, early.convection ? *early.convection : early.velocity)};
+  const auto of_phase = [&](Phase Box::*phase) {
+    const auto velocity = [&](std::size_t back) { return at_first(of[back], (boxes_[of[back]].*phase).velocity); };
+    const auto convection = [&](std::size_t back) {
+      const Phase& then = boxes_[of[back]].*phase;
+      return at_first(of[back], then.convection ? *then.convection : then.velocity);
+    };
+    return Levels{velocity(0), velocity(1), velocity(2), convection(0), convection(1)};
   };
-  const fluid::ConstView view = boxes_[now].whole.velocity.points()[component];
-  return {of(&Box::whole), of(&Box::outer), of(&Box::inner), view.row_stride, view.plane_stride};
+  const fluid::ConstView view = boxes_[of[0]].whole.velocity.points()[component];
+  return {of_phase(&Box::whole), of_phase(&Box::outer), of_phase(&Box::inner), view.row_stride, view.plane_stride};
 }
 
 // The boxes of all times are alike, as a run that is restarted knows no more than their size: convection has bits of the
@@ -210,8 +208,8 @@ void BodyPhases::begin(const SharpTransfer& body, double ratio, const fluid::Fac
       find_held(box, c, fields[c]);
       copy_from(fields[c], box.whole.velocity.points()[c]);
     }
-    copy(box.whole.velocity, box.outer.velocity);
-    copy(box.whole.velocity, box.inner.velocity);
+    copy_field(box.whole.velocity, box.outer.velocity);
+    copy_field(box.whole.velocity, box.inner.velocity);
     for_storage(box.inner.velocity, [ratio](double* w, std::size_t count) {
       std::transform(w, w + count, w, [ratio](double u) { return ratio * u; });
     });
@@ -231,7 +229,7 @@ void BodyPhases::keep(std::size_t time, const SharpTransfer& body, const fluid::
     copy_from(continuations[c], outer[c]);
   }
   add(box.whole.velocity, box.outer.velocity);
-  copy(box.whole.velocity, box.inner.velocity);
+  copy_field(box.whole.velocity, box.inner.velocity);
   for (const std::size_t c : axes) {
     find_held(box, c, fields[c]);
     continue_inner(box, c, body.band(static_cast<int>(c)));
@@ -251,24 +249,27 @@ void BodyPhases::put_outer(std::size_t time, fluid::FaceVector& velocity) const 
                      [&](int x, int y, int z) { to[c](x, y, z) = from[c](i, j, k); });
 }
 
-std::vector<double> BodyPhases::state(std::size_t time) const {
+std::vector<double> BodyPhases::state(std::size_t time, bool has_outer) const {
   const Box& box = boxes_.at(time);
   std::vector<double> row;
-  row.reserve(numbers_at_first + storage(box.inner.velocity));
+  row.reserve(numbers_at_first + (has_outer ? 2 : 1) * storage(box.inner.velocity));
   row.insert(row.end(), box.first.begin(), box.first.end());
   row.insert(row.end(), points_.begin(), points_.end());
-  for_storage(box.inner.velocity,
-              [&row](const double* values, std::size_t count) { row.insert(row.end(), values, values + count); });
+  const auto append = [&row](const double* values, std::size_t count) {
+    row.insert(row.end(), values, values + count);
+  };
+  for_storage(box.inner.velocity, append);
+  if (has_outer) for_storage(box.outer.velocity, append);
   return row;
 }
 
-void BodyPhases::restore(const std::array<Saved, 2>& saved) {
-  const std::span<const double> row = saved[0].inner, earlier = saved[1].inner;
+void BodyPhases::restore(std::span<const Saved> saved) {
+  const std::span<const double> row = saved.front().inner;
   const auto refuse = [&] {
     throw std::invalid_argument(
-        fmt::format("the velocity inside a vesicle is two rows of {} and {} numbers, which are no boxes of one size "
+        fmt::format("the velocity inside a vesicle, of which the latest has {} numbers, is not of boxes of one size "
                     "with finite values",
-                    row.size(), earlier.size()));
+                    row.size()));
   };
   const auto whole_number = [&](double value, double least, double most) {
     if (!(value >= least && value <= most) || value != std::floor(value)) refuse();
@@ -276,8 +277,9 @@ void BodyPhases::restore(const std::array<Saved, 2>& saved) {
   };
   std::array<int, 3> points{};
   double count = 1.0;
-  for (const std::span<const double> each : {row, earlier}) {
-    if (each.size() != row.size() || each.size() < numbers_at_first) refuse();
+  for (const Saved& one : saved) {
+    const std::span<const double> each = one.inner;
+    if (each.size() < numbers_at_first) refuse();
     if (!std::ranges::all_of(each, [](double x) { return std::isfinite(x); })) refuse();
     for (const std::size_t axis : axes) {
       whole_number(each[axis], -1e9, 1e9);
@@ -295,19 +297,25 @@ void BodyPhases::restore(const std::array<Saved, 2>& saved) {
   }
   for (const Saved& one : saved) {
     Box& box = boxes_[one.time];
-    if (one.inner.size() != numbers_at_first + storage(box.inner.velocity)) refuse();
+    const std::size_t phases = one.outer == nullptr ? 2 : 1;
+    if (one.inner.size() != numbers_at_first + phases * storage(box.inner.velocity)) refuse();
     for (const std::size_t axis : axes) box.first[axis] = static_cast<int>(one.inner[axis]);
-    const auto fields = one.velocity.points(), outer_fields = one.outer.points();
+    const double* next = one.inner.data() + numbers_at_first;
+    const auto take = [&next](double* values, std::size_t size) {
+      std::copy_n(next, size, values);
+      next += size;
+    };
+    for_storage(box.inner.velocity, take);
+    if (one.outer == nullptr) {
+      for_storage(box.outer.velocity, take);
+      continue;
+    }
+    const auto fields = one.velocity->points(), outer_fields = one.outer->points();
     for (const std::size_t c : axes) {
       find_held(box, c, fields[c]);
       copy_from(fields[c], box.whole.velocity.points()[c]);
       copy_from(outer_fields[c], box.outer.velocity.points()[c]);
     }
-    const double* next = one.inner.data() + numbers_at_first;
-    for_storage(box.inner.velocity, [&next](double* values, std::size_t size) {
-      std::copy_n(next, size, values);
-      next += size;
-    });
     convect(box);
   }
 }

@@ -13,13 +13,15 @@
 
 namespace vesiflow::coupling {
 
-/// w = mu u about one body at three times, in a box of the grid around it: as the grid has it, and that of the phases
+/// w = mu u about one body at four times, of which one is about to be replaced, in a box of the grid around it: as the grid has it, and that of the phases
 /// outside and inside of the body, each continued across its membrane as far as its bands know the jump. Each body has its
 /// own continuation at points that are near several. Indices run on across periodic axes, as those of GridBand do. Beyond
 /// where it is continued, a phase holds what the grid has there, which is of no meaning.
 class BodyPhases {
  public:
-  static constexpr std::size_t times = 3;
+  static constexpr std::size_t times = 4;
+  /// The present one, that a step before, and that before or again the second.
+  using Times = std::array<std::size_t, 3>;
 
   /// \param convects whether N = (w . grad)w is computed
   BodyPhases(const fluid::Grid& grid, bool convects) : grid_(grid), convects_(convects) {}
@@ -31,7 +33,7 @@ class BodyPhases {
   void keep(std::size_t time, const SharpTransfer& body, const fluid::FaceVector& velocity,
             const fluid::FaceVector& continuation);
 
-  /// Points with all that differences there take in. Those of two times, or none.
+  /// Points with all that differences there take in. Those of all these times, or none.
   struct Points {
     std::array<int, 3> first, extent;
     bool any() const { return extent[0] > 0 && extent[1] > 0 && extent[2] > 0; }
@@ -40,36 +42,36 @@ class BodyPhases {
              k < first[2] + extent[2];
     }
   };
-  Points points_of(std::size_t now, std::size_t before) const;
+  Points points_of(const Times& of) const;
 
-  /// A component of w at two times, and of N, at the first of points_of(). N is w unless it is computed.
+  /// A component of w at these times, and of N at the first two, at the first of points_of(). N is w unless it is computed.
   struct Levels {
-    const double *velocity, *earlier, *convection, *earlier_convection;
+    const double *velocity, *earlier, *earliest, *convection, *earlier_convection;
     Levels from(std::ptrdiff_t at) const {
-      return {velocity + at, earlier + at, convection + at, earlier_convection + at};
+      return {velocity + at, earlier + at, earliest + at, convection + at, earlier_convection + at};
     }
   };
   struct AllLevels {
     Levels whole, outer, inner;  ///< as the grid has it, and of the phases
     std::ptrdiff_t row_stride, plane_stride;
   };
-  AllLevels levels(std::size_t component, std::size_t now, std::size_t before) const;
+  AllLevels levels(std::size_t component, const Times& of) const;
 
   /// Puts w outside of the body, continued, into a field of the grid, where the box has points.
   void put_outer(std::size_t time, fluid::FaceVector& velocity) const;
 
   /// A row of numbers of one time for checkpoints: first point and number of points of the box along each axis, then the
-  /// components of w inside with their ghosts.
-  std::vector<double> state(std::size_t time) const;
+  /// components of w inside with their ghosts and, if asked for, those of w outside.
+  std::vector<double> state(std::size_t time, bool has_outer = false) const;
   /// What a time is restored from.
   struct Saved {
     std::size_t time;
     std::span<const double> inner;              ///< a row of state()
-    const fluid::FaceVector &velocity, &outer;  ///< w, and as put_outer() gives it
+    const fluid::FaceVector *velocity, *outer;  ///< w, and as put_outer() gives it; null: the row has what is outside
   };
-  /// Takes two times.
+  /// Takes some times; one that has what is outside in its row has no convection and nothing as the grid has it.
   /// \throws std::invalid_argument unless the rows are of that form, alike and finite
-  void restore(const std::array<Saved, 2>& saved);
+  void restore(std::span<const Saved> saved);
 
  private:
   struct Phase {

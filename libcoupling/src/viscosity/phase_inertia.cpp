@@ -13,6 +13,7 @@
 #include "fluid/operators.h"
 #include "transfer/roomy.h"
 #include "transfer/shares.h"
+#include "viscosity/copy_field.h"
 #include "viscosity/grid_places.h"
 
 namespace vesiflow::coupling {
@@ -61,27 +62,22 @@ void for_band(const GridBand& band, const Work& work) {
 
 }  // namespace
 
-// Errors of a phase are multiplied by 1 - 2 s/3 in a step, s its acceleration over the solved one: by -2/3 with s = 2.5. From s = 3 on they
-// would not decay, and runs with s = 3.3 blow up at once. A larger Re_s makes the other phase, of s << 1, slow to forget: with s = 2 and 1
-// inside, a thin inside blows up from ever smaller Reynolds numbers on (ratio 0.05, dt = 1/48: 0.05 and less, against 0.1).
-double PhaseInertia::solved_reynolds_number(double reynolds_number, double least_ratio) {
-  constexpr double greatest_share = 2.5;
-  return reynolds_number * std::max(1.0, 1.0 / (greatest_share * least_ratio));
-}
-
-PhaseInertia::PhaseInertia(const fluid::Grid& grid, double reynolds_number, std::vector<Body> bodies, bool convects)
+PhaseInertia::PhaseInertia(const fluid::Grid& grid, double reynolds_number, const PhaseSplitting& splitting,
+                           std::vector<Body> bodies, bool convects)
     : grid_(grid),
       bodies_(std::move(bodies)),
       reynolds_number_(reynolds_number),
-      solved_(solved_reynolds_number(reynolds_number, std::ranges::min(bodies_, {}, &Body::ratio).ratio)),
+      splitting_(splitting),
       explicit_(grid),
       next_(grid),
       continuation_(grid) {
   c_.convects = convects;
   for (std::size_t b = 0; b < bodies_.size(); ++b) phases_.emplace_back(grid, convects);
   for (Component& component : components_) component.bodies.resize(bodies_.size());
-  if (convects && solved_ != reynolds_number_)
-    for (std::size_t time = 0; time < BodyPhases::times; ++time) convection_.emplace_back(grid);
+  for (std::size_t time = 0; solves_another() && time < 3; ++time) {
+    if (convects) convection_.emplace_back(grid);
+    if (splitting_.curvature > 0.0) earlier_.emplace_back(grid);
+  }
 }
 
 // 1 inside, 0 outside.
@@ -90,36 +86,60 @@ double PhaseInertia::blend(const Body& body, double distance) {
 }
 
 void PhaseInertia::begin(const fluid::FaceVector& velocity) {
-  keep_convection(now_, velocity);  // the time before has coefficients of zero
+  steps_.fill(0.0);
+  keep_convection(0, velocity);  // the time before has coefficients of zero
   for (std::size_t b = 0; b < bodies_.size(); ++b) phases_[b].begin(*bodies_[b].sharp, bodies_[b].ratio, velocity);
 }
 
-void PhaseInertia::keep_convection(std::size_t time, const fluid::FaceVector& velocity) {
-  if (!convection_.empty()) fluid::convection(velocity, convection_[time]);
+void PhaseInertia::keep_convection(std::size_t back, const fluid::FaceVector& velocity) {
+  if (!convection_.empty()) fluid::convection(velocity, convection_[(now_ - back) % convection_.size()]);
+}
+
+// Of a step dt after one of length `last` (0: none).
+PhaseInertia::Coefficients PhaseInertia::coefficients(double dt, double last) const {
+  const double r = last > 0.0 ? dt / last : 0.0;
+  Coefficients c{.c0 = (1.0 + 2.0 * r) / (1.0 + r) / dt,
+                 .c1 = -(1.0 + r) / dt,
+                 .c2 = r * r / (1.0 + r) / dt,
+                 .r = r,
+                 .next = 1.0 + r,
+                 .next1 = -r,
+                 .convects = c_.convects};
+  if (const double one_before = earlier_step(); last > 0.0 && one_before > 0.0) {  // Newton's divided differences
+    const double second = splitting_.curvature * dt * (dt + last) / (last + one_before);
+    c.next += second / last;
+    c.next1 -= second / last + second / one_before;
+    c.next2 = second / one_before;
+  }
+  return c;
 }
 
 double PhaseInertia::prepare(const fluid::NavierStokes& fluid, double dt) {
-  const double r = fluid.steps() > 0 ? dt / fluid.clock().time_step : 0.0;
-  c_ = {(1.0 + 2.0 * r) / (1.0 + r) / dt, -(1.0 + r) / dt, r * r / (1.0 + r) / dt, r, c_.convects};
+  c_ = coefficients(dt, fluid.steps() > 0 ? fluid.clock().time_step : 0.0);
+  // What is the last but two in the next step.
+  if (!earlier_.empty()) copy_field(fluid.previous_velocity(), earlier_[(now_ - 1) % earlier_.size()]);
   in_shares(3, [&](Eigen::Index begin, Eigen::Index end) {
     for (auto c = static_cast<std::size_t>(begin); c < static_cast<std::size_t>(end); ++c) prepare_component(c, fluid);
   });
-  return solved_ * c_.c0;
+  return splitting_.solved_reynolds_number * c_.c0;
 }
 
 // w as the grid has it, on the whole grid.
 PhaseInertia::Levels PhaseInertia::everywhere(std::size_t component, const fluid::NavierStokes& fluid) const {
   const auto data = [component](const fluid::FaceVector& field) { return field.points()[component].data; };
   const double *velocity = data(fluid.velocity()), *earlier = data(fluid.previous_velocity());
-  if (convection_.empty()) return {velocity, earlier, velocity, earlier};
-  return {velocity, earlier, data(convection_[now_]), data(convection_[before()])};
+  const double* earliest =
+      earlier_.empty() || known_times() < 3 ? earlier : data(earlier_[(now_ - 2) % earlier_.size()]);
+  if (convection_.empty()) return {velocity, earlier, earliest, velocity, earlier};
+  const auto convection = [&](std::size_t back) { return data(convection_[(now_ - back) % convection_.size()]); };
+  return {velocity, earlier, earliest, convection(0), convection(1)};
 }
 
 // Arrays of the grid begin at the point (0, 0, 0). Each loop is over all bodies before the next one begins: a point may be in the boxes of
 // several.
 void PhaseInertia::prepare_component(std::size_t component, const fluid::NavierStokes& fluid) {
   const Extrapolation to_next(c_);
-  const double re = reynolds_number_, more = solved_ - reynolds_number_, c0 = c_.c0;
+  const double re = reynolds_number_, more = splitting_.solved_reynolds_number - reynolds_number_, c0 = c_.c0;
   std::vector<BodyPart>& bodies = components_[component].bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     find_rows(component, b);
@@ -144,7 +164,7 @@ void PhaseInertia::prepare_component(std::size_t component, const fluid::NavierS
                    everywhere = grid.from(row.in_grid);
 #pragma omp simd
       for (int i = 0; i < row.count; ++i) {
-        next[i] = to_next.velocity(everywhere, i) + (to_next.velocity(outer, i) - to_next.velocity(whole, i));
+        next[i] = to_next.velocity(outer, i);
         force[i] =
             more * to_next.past(everywhere, 1.0, i) + re * (to_next.past(whole, 1.0, i) - to_next.past(outer, 1.0, i));
       }
@@ -182,9 +202,9 @@ void PhaseInertia::prepare_component(std::size_t component, const fluid::NavierS
 void PhaseInertia::find_rows(std::size_t component, std::size_t body) {
   BodyPart& part = components_[component].bodies[body];
   part.rows.clear();
-  const BodyPhases::Points points = phases_[body].points_of(now_, before());
+  const BodyPhases::Points points = phases_[body].points_of(known());
   if (!points.any()) return;
-  part.w = phases_[body].levels(component, now_, before());
+  part.w = phases_[body].levels(component, known());
   const fluid::ConstView view = std::as_const(explicit_).points()[component];
   const auto& [nx, ny, nz] = points.extent;
   reserve_with_room(part.rows, static_cast<std::size_t>(ny) * static_cast<std::size_t>(nz));
@@ -206,7 +226,7 @@ void PhaseInertia::find_rows(std::size_t component, std::size_t body) {
 
 void PhaseInertia::find_shares(std::size_t component, std::size_t body) {
   BodyPart& part = components_[component].bodies[body];
-  const BodyPhases::Points points = phases_[body].points_of(now_, before());
+  const BodyPhases::Points points = phases_[body].points_of(known());
   const auto& [first, extent] = points;
   resize_with_room(part.share, static_cast<std::size_t>(extent[0]) * static_cast<std::size_t>(extent[1]) *
                                    static_cast<std::size_t>(extent[2]));
@@ -238,7 +258,7 @@ void PhaseInertia::find_pieces(std::size_t component) {
   std::vector<Piece>& pieces = components_[component].pieces;
   pieces.clear();
   const fluid::ConstView view = std::as_const(explicit_).points()[component];
-  if (solved_ != reynolds_number_) {
+  if (solves_another()) {
     pieces.push_back({0, offset(view, view.extent[0], view.extent[1] - 1, view.extent[2] - 1)});
     return;
   }
@@ -261,7 +281,7 @@ void PhaseInertia::list_jumps(std::size_t component, std::size_t body) {
   std::vector<JumpPart>& jumps = components_[component].jumps;
   const double ratio = bodies_[body].ratio, of_jump = c_.c0 * reynolds_number_;
   const GridBand& band = bodies_[body].sharp->band(static_cast<int>(component));
-  const BodyPhases::Points known = phases_[body].points_of(now_, before());
+  const BodyPhases::Points points = phases_[body].points_of(known());
   const fluid::ConstView view = std::as_const(explicit_).points()[component];
   reserve_with_room(jumps, jumps.size() + band.points().size() / 4);  // one in ten is within the step
   for_band(band, [&](const GridBand::Point& point) {
@@ -274,7 +294,7 @@ void PhaseInertia::list_jumps(std::size_t component, std::size_t body) {
     const std::ptrdiff_t in_grid = offset(view, place[0], place[1], place[2]);
     const bool is_inside = point.distance() < 0.0;
     jumps.push_back({in_grid, &band, point.at, of_jump * (is_inside ? -(1.0 - theta) : theta / ratio)});
-    if (!is_inside && known.contains(point.index[0], point.index[1], point.index[2]))
+    if (!is_inside && points.contains(point.index[0], point.index[1], point.index[2]))
       list_shared(component, point, in_grid, of_jump * theta * (1.0 - 1.0 / ratio));
   });
 }
@@ -345,57 +365,74 @@ void PhaseInertia::for_jumps_inside(const Put& put) {
     }
 }
 
-void PhaseInertia::keep(const fluid::FaceVector& velocity) {
-  now_ = (now_ + 1) % BodyPhases::times;
+void PhaseInertia::keep(const fluid::FaceVector& velocity, double dt) {
+  ++now_;
+  steps_[time(0)] = dt;
   for_jumps_inside([](double& w, double jump) { w += jump; });
-  for (std::size_t b = 0; b < bodies_.size(); ++b) phases_[b].keep(now_, *bodies_[b].sharp, velocity, continuation_);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) phases_[b].keep(time(0), *bodies_[b].sharp, velocity, continuation_);
   for_jumps_inside([](double& w, double) { w = 0.0; });
-  keep_convection(now_, velocity);
+  keep_convection(0, velocity);
 }
 
 std::vector<fluid::FaceVector> PhaseInertia::outer_state(const fluid::NavierStokes& fluid) const {
   std::vector<fluid::FaceVector> state;
   state.push_back(fluid.velocity().clone());
   state.push_back(fluid.previous_velocity().clone());
-  for (const BodyPhases& body : phases_) {
-    body.put_outer(now_, state[0]);
-    body.put_outer(before(), state[1]);
-  }
+  for (const BodyPhases& body : phases_)
+    for (std::size_t back = 0; back < state.size(); ++back) body.put_outer(time(back), state[back]);
+  if (!earlier_.empty() && known_times() == 3) state.push_back(earlier_[(now_ - 2) % earlier_.size()].clone());
   return state;
 }
 
-std::array<std::vector<double>, 2> PhaseInertia::inner_state(std::size_t body) const {
-  return {phases_[body].state(now_), phases_[body].state(before())};
+PhaseInertia::InnerState PhaseInertia::inner_state(std::size_t body) const {
+  InnerState state{phases_[body].state(time(0)), phases_[body].state(time(1))};
+  if (known_times() == 3) state.push_back(phases_[body].state(time(2), true));
+  return state;
 }
 
 void PhaseInertia::restore(std::span<const fluid::FaceVector> outer, std::span<const InnerState> inner,
-                           const fluid::NavierStokes& fluid) {
-  if (outer.size() != 2 || inner.size() != bodies_.size())
+                           double earlier_step, const fluid::NavierStokes& fluid) {
+  if (!(earlier_step >= 0.0 && std::isfinite(earlier_step)))
+    throw std::invalid_argument(fmt::format("the state has an earlier step of {:g}, it must be >= 0", earlier_step));
+  const std::size_t known = earlier_step > 0.0 && splitting_.curvature > 0.0 ? 3 : 2;
+  const std::size_t on_grid = earlier_.empty() ? 2 : known;
+  if (outer.size() != on_grid || inner.size() != bodies_.size())
     throw std::invalid_argument(
-        fmt::format("the state has {} velocities of the outer phase and those inside of {} vesicles, expected 2 and {}",
-                    outer.size(), inner.size(), bodies_.size()));
+        fmt::format("the state has {} velocities of the outer phase and those inside of {} vesicles, expected {} and {}",
+                    outer.size(), inner.size(), on_grid, bodies_.size()));
+  for (const InnerState& rows : inner)
+    if (rows.size() != known)
+      throw std::invalid_argument(
+          fmt::format("the state has the velocity inside of a vesicle at {} times, expected {}", rows.size(), known));
   for (const fluid::FaceVector& field : outer)
     if (!(field.grid() == grid_) || !all_finite(field))
       throw std::invalid_argument("the velocity of a phase is not on the grid of the fluid, or not finite");
-  now_ = remembered_ = 0;
-  const fluid::FaceVector &velocity = fluid.velocity(), &previous = fluid.previous_velocity();
+  now_ = remembered_ = first_time;
+  steps_.fill(0.0);
+  steps_[time(0)] = fluid.clock().time_step;
+  if (known == 3) steps_[time(1)] = earlier_step;
+  const std::array<const fluid::FaceVector*, 2> velocity{&fluid.velocity(), &fluid.previous_velocity()};
   // Next to walls membranes do not reach, and ghosts there are those of the fluid.
-  std::array<fluid::FaceVector, 2> continued{velocity.clone(), previous.clone()};
-  for (const std::size_t level : {0U, 1U})
+  std::array<fluid::FaceVector, 2> continued{velocity[0]->clone(), velocity[1]->clone()};
+  for (const std::size_t back : {0U, 1U})
     for (const std::size_t c : components) {
-      const fluid::ConstView source = outer[level].points()[c];
-      const fluid::View target = continued[level].points()[c];
+      const fluid::ConstView source = outer[back].points()[c];
+      const fluid::View target = continued[back].points()[c];
       for (int k = 0; k < source.extent[2]; ++k)
         for (int j = 0; j < source.extent[1]; ++j)
           for (int i = 0; i < source.extent[0]; ++i)
             for_places({i, j, k}, grid_, target.extent,
                        [&](int x, int y, int z) { target(x, y, z) = source(i, j, k); });
     }
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    phases_[b].restore(
-        {{{now_, inner[b][0], velocity, continued[0]}, {before(), inner[b][1], previous, continued[1]}}});
-  keep_convection(now_, velocity);
-  keep_convection(before(), previous);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    std::vector<BodyPhases::Saved> saved;
+    for (const std::size_t back : {0U, 1U})
+      saved.push_back({time(back), inner[b][back], velocity[back], &continued[back]});
+    if (known == 3) saved.push_back({time(2), inner[b][2], nullptr, nullptr});
+    phases_[b].restore(saved);
+  }
+  for (const std::size_t back : {0U, 1U}) keep_convection(back, *velocity[back]);
+  if (on_grid == 3) copy_field(outer[2], earlier_[(now_ - 2) % earlier_.size()]);
 }
 
 }  // namespace vesiflow::coupling

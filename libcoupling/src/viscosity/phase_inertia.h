@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "coupling/phase_splitting.h"
 #include "fluid/field.h"
 #include "fluid/navier_stokes.h"
 #include "transfer/sharp_transfer.h"
@@ -26,8 +27,10 @@ namespace vesiflow::coupling {
 /// with the coefficients c of the solver's time differences and N extrapolated, each phase continued across the membranes
 /// at each of its times by the jumps that they had then, and theta_b a smooth step at body b, 1 inside of it. Each body
 /// has an inside of its own: next to several, a point is reached by the continuations of all. Where w^(k+1) does
-/// not cancel, its extrapolation in the phase that the point is in now is taken. Away from bodies f vanishes, but for
-/// (Re_s - Re) A. docs/jump_conditions.md.
+/// not cancel, its extrapolation in the phase that the point is in now is taken. As c0 is of the order of 1/dt, the step is
+/// of second order where that is from three times, which is stable for accelerations that differ by a factor of up to 5:
+/// phase_splitting(). Away from bodies f vanishes, but for (Re_s - Re) A.
+/// docs/jump_conditions.md#the-acceleration-that-is-extrapolated.
 class PhaseInertia {
  public:
   struct Body {
@@ -46,11 +49,9 @@ class PhaseInertia {
   /// noise is least from 0.25 to 0.5.
   static constexpr double smoothing = 0.25;
 
-  /// Re_s: no phase has more than 2.5 times its acceleration.
-  static double solved_reynolds_number(double reynolds_number, double least_ratio);
-
   /// \param bodies at least one; their transfers live longer than this
-  PhaseInertia(const fluid::Grid& grid, double reynolds_number, std::vector<Body> bodies, bool convects);
+  PhaseInertia(const fluid::Grid& grid, double reynolds_number, const PhaseSplitting& splitting, std::vector<Body> bodies,
+               bool convects);
 
   /// Starts from a velocity u of the fluid that no step has made.
   void begin(const fluid::FaceVector& velocity);
@@ -63,37 +64,49 @@ class PhaseInertia {
   /// Sets to zero where add_to() adds.
   void clear(fluid::FaceVector& density) const;
 
-  /// Keeps the phases of a step's end: w, of which the bodies know the jumps.
-  void keep(const fluid::FaceVector& velocity);
+  /// Keeps the phases of the end of a step of length dt: w, of which the bodies know the jumps.
+  void keep(const fluid::FaceVector& velocity, double dt);
   /// The present time is what take_back() goes back to, over one keep() at most.
   void remember() { remembered_ = now_; }
   void take_back() { now_ = remembered_; }
 
-  /// Outer w of the present time and of the one before.
+  /// Outer w of the present time and of the one before; and w as the grid had it two steps ago where the solver has another
+  /// Reynolds number and three times are known.
   std::vector<fluid::FaceVector> outer_state(const fluid::NavierStokes& fluid) const;
-  /// The same inside of a body, rows of BodyPhases.
-  std::array<std::vector<double>, 2> inner_state(std::size_t body) const;
-  using InnerState = std::array<std::span<const double>, 2>;
+  using InnerState = std::vector<std::vector<double>>;
+  /// w inside of a body, rows of BodyPhases: of the present time, of the one before and, of both phases, of that before it where
+  /// that is known and made use of.
+  InnerState inner_state(std::size_t body) const;
+  /// From the third of these times to the second; 0 if there are two.
+  double earlier_step() const { return known_times() == 3 ? steps_[time(1)] : 0.0; }
   /// \param inner of all bodies
-  /// \throws std::invalid_argument unless the velocities are on this grid and finite, and of as many bodies
-  void restore(std::span<const fluid::FaceVector> outer, std::span<const InnerState> inner,
+  /// \throws std::invalid_argument unless the velocities are on this grid and finite, of as many bodies and of as many
+  /// times as that `earlier_step` has
+  void restore(std::span<const fluid::FaceVector> outer, std::span<const InnerState> inner, double earlier_step,
                const fluid::NavierStokes& fluid);
 
  private:
   using Levels = BodyPhases::Levels;
   struct Coefficients {
     double c0 = 0.0, c1 = 0.0, c2 = 0.0, r = 0.0;
+    double next = 0.0, next1 = 0.0, next2 = 0.0;  // of w^k, w^(k-1), w^(k-2) in w^(k+1)
     bool convects = false;
   };
-  /// From two times to the next.
+  /// From two or three times to the next.
   struct Extrapolation {
     explicit Extrapolation(const Coefficients& c)
-        : c1(c.c1), c2(c.c2), now(1.0 + c.r), before(c.r), n1(c.convects ? now : 0.0), n2(c.convects ? before : 0.0) {}
-    double c1, c2, now, before, n1, n2;
+        : c1(c.c1),
+          c2(c.c2),
+          now(c.next),
+          before(c.next1),
+          earliest(c.next2),
+          n1(c.convects ? 1.0 + c.r : 0.0),
+          n2(c.convects ? c.r : 0.0) {}
+    double c1, c2, now, before, earliest, n1, n2;
 
     /// w^(k+1).
     [[gnu::always_inline]] double velocity(const Levels& w, std::ptrdiff_t at) const {
-      return now * w.velocity[at] - before * w.earlier[at];
+      return now * w.velocity[at] + before * w.earlier[at] + earliest * w.earliest[at];
     }
     /// A without it.
     [[gnu::always_inline]] double past(const Levels& w, double per_viscosity, std::ptrdiff_t at) const {
@@ -131,7 +144,11 @@ class PhaseInertia {
   };
 
   static double blend(const Body& body, double distance);
-  std::size_t before() const { return (now_ + 2) % BodyPhases::times; }
+  std::size_t known_times() const { return splitting_.curvature > 0.0 && steps_[time(1)] > 0.0 ? 3 : 2; }
+  std::size_t time(std::size_t back) const { return (now_ - back) % BodyPhases::times; }
+  BodyPhases::Times known() const { return {time(0), time(1), time(known_times() - 1)}; }
+  bool solves_another() const { return splitting_.solved_reynolds_number != reynolds_number_; }
+  Coefficients coefficients(double dt, double last) const;
   void prepare_component(std::size_t component, const fluid::NavierStokes& fluid);
   void find_rows(std::size_t component, std::size_t body);
   void find_shares(std::size_t component, std::size_t body);
@@ -140,19 +157,23 @@ class PhaseInertia {
   void list_shared(std::size_t component, const GridBand::Point& point, std::ptrdiff_t in_grid, double factor);
   template <class Put>
   void for_jumps_inside(const Put& put);
-  void keep_convection(std::size_t time, const fluid::FaceVector& velocity);
+  void keep_convection(std::size_t back, const fluid::FaceVector& velocity);
   Levels everywhere(std::size_t component, const fluid::NavierStokes& fluid) const;
 
   fluid::Grid grid_;
   std::vector<Body> bodies_;
-  double reynolds_number_, solved_;
-  std::vector<BodyPhases> phases_;        // of the bodies
-  std::size_t now_ = 0, remembered_ = 0;  // of their times; the one before is (now_ + 2) % 3
+  double reynolds_number_;
+  PhaseSplitting splitting_;
+  std::vector<BodyPhases> phases_;  // of the bodies
+  static constexpr std::size_t first_time = 12;
+  std::size_t now_ = first_time, remembered_ = first_time;  // counts times; of the bodies that is time(0), of lists of three now_ % 3
+  std::array<double, BodyPhases::times> steps_{};           // that led to them; 0: none
   Coefficients c_;
   std::array<Component, 3> components_;
   fluid::FaceVector explicit_, next_;  // the prepared force, and w^(k+1) extrapolated in the phase that a point is in
   fluid::FaceVector continuation_;     // zero but within keep()
-  std::vector<fluid::FaceVector> convection_;  // of w on the grid at the three times, if the solver has another Re
+  // If the solver has another Re, of w on the grid: N of the last times, and w of the time before the last two.
+  std::vector<fluid::FaceVector> convection_, earlier_;
 };
 
 }  // namespace vesiflow::coupling

@@ -23,9 +23,6 @@ constexpr double program_bytes = 20.5e6;
 // Of HDF5 once it has written.
 constexpr double hdf5_bytes = 4e6;
 
-// Below this ratio the fluid of sharp membranes is solved for with another Reynolds number than its own.
-constexpr double least_ratio_of_one_number = 0.4;
-
 double cell_field_bytes(const Scene& scene) {
   const auto& n = scene.domain.cells;
   return 8.0 * (n[0] + 2.0) * (n[1] + 2.0) * (n[2] + 2.0);
@@ -72,11 +69,14 @@ MemoryPlan plan_memory(const Scene& scene) {
     if (scene.corrects_fluid(scene.time.step) || scene.has_phase_inertia())
       plan.fluid += 3.0 * field;  // the force that a step is solved again with another than
     if (scene.has_phase_inertia()) {
-      // A force, the velocity that is expected and what continues it; convection where the solver has another Reynolds number. In boxes
-      // three times of both phases and of what the grid has, with their convection.
+      // A force, the velocity that is expected and what continues it; where the solver has another Reynolds number, convection and, if two times
+      // are not enough, velocities. In boxes four times of both phases and of what the grid has, with their convection.
       const bool convects = scene.fluid.inertia == fluid::Inertia::full;
-      plan.fluid += (convects && scene.viscosity_range().least < least_ratio_of_one_number ? 18.0 : 9.0) * field;
-      plan.membranes += 9.0 * (convects ? 6.0 : 3.0) * body_box_bytes(scene);
+      const coupling::PhaseSplitting splitting = scene.phase_splitting();
+      const bool solves_another = splitting.solved_reynolds_number != scene.fluid.reynolds_number;
+      plan.fluid += (9.0 + (solves_another && convects ? 9.0 : 0.0) +
+                     (solves_another && splitting.curvature > 0.0 ? 9.0 : 0.0)) * field;
+      plan.membranes += 12.0 * (convects ? 6.0 : 3.0) * body_box_bytes(scene);
     }
   }
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
@@ -84,7 +84,7 @@ MemoryPlan plan_memory(const Scene& scene) {
   if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit) plan.steps = remembered;
   // Two velocities and a pressure, of two phases more velocities; four single precision numbers per cell.
   if (scene.output.checkpoint_every > 0.0)
-    plan.output = scene.has_phase_inertia() ? 13.0 * field + 6.0 * body_box_bytes(scene) : 7.0 * field;
+    plan.output = scene.has_phase_inertia() ? 16.0 * field + 12.0 * body_box_bytes(scene) : 7.0 * field;
   if (scene.output.fluid_every > 0.0) plan.output = std::max(plan.output, 2.0 * field);
   if (plan.steps == 0.0 && scene.follows_shape())
     plan.steps = std::max(0.0, remembered - plan.output);  // of the start only
