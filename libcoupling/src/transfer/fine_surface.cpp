@@ -14,12 +14,12 @@ namespace vesiflow::coupling {
 
 namespace {
 
-/// A sixteenth more, and then the next of 16 sizes an octave, so that a body that breathes is on few meshes. Even, so that
-/// there are columns at right angles to the first one: of two nodes at the same distance from a point on a plane of symmetry
-/// one would be taken.
+/// A sixteenth more, and then the next of 8 sizes an octave, so that a body that breathes is on few meshes, whose transforms
+/// have no prime factors above 13. Even, so that there are columns at right angles to the first one: of two nodes at the
+/// same distance from a point on a plane of symmetry one would be taken.
 int rounded_up(int latitudes) {
   const int more = latitudes + latitudes / 16;
-  const int step = std::max(2, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 16);
+  const int step = std::max(2, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 8);
   return (more + step - 1) / step * step;
 }
 
