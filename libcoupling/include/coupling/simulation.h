@@ -64,6 +64,10 @@ struct SimulationState {
   /// Sharp membranes between two viscosities in a fluid with inertia: the velocity of the outer fluid, continued into the
   /// membranes, now and one step ago. Else, and before the first step, empty.
   std::vector<fluid::FaceVector> outer_velocities = {};
+
+  /// Sharp membranes between two viscosities in a box without walls, without inertia: what `velocity` lacks of being mu u, u
+  /// of zero mean. Else zero.
+  fluid::Vector3 mean_flow{};
 };
 
 /// The velocity of the fluid of a state, which SimulationState::velocity is but for sharp membranes between two

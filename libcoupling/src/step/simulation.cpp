@@ -269,6 +269,7 @@ SimulationState Simulation::state() const {
                               v->previous_interface_velocity()});
   }
   state.clock.steps = steps();
+  state.mean_flow = mean_flow_;
   if (phase_inertia_ && fluid_.steps() > 0) {
     state.outer_velocities = phase_inertia_->outer_state(fluid_);
     std::size_t body = 0;
@@ -314,10 +315,9 @@ void Simulation::restore(const SimulationState& state) {
     v.noise.restart();
     if (fluid_.steps() > 0)
       v.restore_interface_velocity(state.vesicles[i].interface_velocity, state.vesicles[i].previous_interface_velocity);
-    if (v.two_phase) v.update();  // the mean flow is of its present shape
   }
   if (phase_inertia_ && fluid_.steps() > 0) restore_phases(state);
-  mean_flow_ = mean_flow();
+  mean_flow_ = state.mean_flow;
   for (auto& v : vesicles_) {
     v->mean_flow = mean_flow_;
     read_velocity(*v);

@@ -291,17 +291,18 @@ void Simulation::keep_phases() {
   phase_inertia_->keep(fluid_.velocity());
 }
 
-// Without walls the mean of mu u, which the fluid's solver takes to be zero, is such that that of u is. With inertia the solver has a mean
-// of its own, from the forces.
+// Without walls the mean of mu u is such that that of u is zero. The fluid's solver takes the sum of mu u over the points of
+// the grid to be zero, which is not its integral. With inertia the solver has a mean of its own, from the forces.
 fluid::Vector3 Simulation::mean_flow() const {
   fluid::Vector3 mean{};
   const fluid::Grid& grid = fluid_.grid();
   if (grid.has_walls() || phase_inertia_) return mean;
   for (const auto& v : vesicles_) {
     if (!v->two_phase) continue;
-    const vesicle::Vector3 displaced = v->two_phase->displaced(v->membrane.surface());
+    const vesicle::Vector3 lacking =
+        v->two_phase->displaced(v->membrane.surface()) + v->sharp->integral_beyond_sum();
     for (int axis = 0; axis < 3; ++axis)
-      mean[static_cast<std::size_t>(axis)] -= displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
+      mean[static_cast<std::size_t>(axis)] -= lacking[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
   }
   return mean;
 }

@@ -72,6 +72,10 @@ class SharpTransfer {
   /// Velocity at the markers (markers x 3) of the last update.
   void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
 
+  /// What the integral of the velocity that has been solved for is more than the sum over the points of the grid times
+  /// their volume, which counts points inside as a whole. Without mirror planes. docs/jump_conditions.md#the-mean-flow.
+  Eigen::Vector3d integral_beyond_sum() const;
+
   /// The points of a component of the velocity, 0 to 2, that are near the membrane of the last update.
   const GridBand& band(int component) const { return bands_[static_cast<std::size_t>(component)]; }
 

@@ -251,6 +251,7 @@ auto as_input(const Read& read) {
   }
 }
 
+constexpr const char* mean_flow_name = "/mean_flow";
 /// Of SimulationState::outer_velocities.
 constexpr std::array<const char*, 2> outer_names{"/outer_velocity", "/previous_outer_velocity"};
 
@@ -266,6 +267,12 @@ coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, c
   read_velocity(file, "/previous_velocity", state.previous_velocity, path);
   read_field(file, "/pressure", state.pressure, path);
   if (file.exists("/step_control")) state.step_control = file.read("/step_control");
+  if (file.exists(mean_flow_name)) {  // of sharp membranes between two viscosities, without walls and inertia
+    const std::vector<double> mean = file.read(mean_flow_name);
+    if (mean.size() != state.mean_flow.size())
+      throw FileError(fmt::format("{}: {} has {} values, expected 3", path.string(), mean_flow_name, mean.size()));
+    std::copy(mean.begin(), mean.end(), state.mean_flow.begin());
+  }
   if (file.exists(outer_names[0]))  // of sharp membranes between two viscosities, with inertia
     for (const char* name : outer_names) read_velocity(file, name, state.outer_velocities.emplace_back(grid), path);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
@@ -296,6 +303,8 @@ void write_checkpoint(const std::filesystem::path& path, const SceneSimulation& 
     write_velocity(file, "/velocity", state.velocity);
     write_velocity(file, "/previous_velocity", state.previous_velocity);
     write_field(file, "/pressure", state.pressure);
+    if (state.mean_flow != fluid::Vector3{})
+      write_array(file, mean_flow_name, state.mean_flow.data(), static_cast<Eigen::Index>(state.mean_flow.size()));
     for (std::size_t i = 0; i < state.outer_velocities.size(); ++i)
       write_velocity(file, outer_names[i], state.outer_velocities[i]);
     if (!state.step_control.empty())

@@ -56,6 +56,8 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
     for (const auto* row : {&vesicle.inner_velocity, &vesicle.previous_inner_velocity})
       if (!row->empty()) add_array(sum, *row);
   }
+  for (const double mean : state.mean_flow)
+    if (mean != 0.0) sum.add(mean);
   if (state.start) {
     sum.add(state.start->run);
     sum.add(state.start->time);
