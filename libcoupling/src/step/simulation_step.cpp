@@ -106,7 +106,7 @@ void Simulation::spread_forces(double dt) {
   {
     const PhaseTimer timer(phases_.spread);
     find_neighbours();
-    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(!neighbours_[i].empty()); });
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(dt, !neighbours_[i].empty()); });
   }
   prepare_inertia(dt);
   for (auto& v : vesicles_)
@@ -299,8 +299,7 @@ fluid::Vector3 Simulation::mean_flow() const {
   if (grid.has_walls() || phase_inertia_) return mean;
   for (const auto& v : vesicles_) {
     if (!v->two_phase) continue;
-    const vesicle::Vector3 lacking =
-        v->two_phase->displaced(v->membrane.surface()) + v->sharp->integral_beyond_sum();
+    const vesicle::Vector3 lacking = v->two_phase->displaced(v->membrane.surface()) + v->sharp->integral_beyond_sum();
     for (int axis = 0; axis < 3; ++axis)
       mean[static_cast<std::size_t>(axis)] -= lacking[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
   }

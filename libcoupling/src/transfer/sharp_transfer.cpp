@@ -63,7 +63,7 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
     : grid_(grid),
       smoothing_(parameters.smoothing * grid.min_spacing()),
       spacing_(std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)})),
-      more_reach_(parameters.more_reach * spacing_),
+      more_reach_(parameters.more_reach),
       jumps_(markers, {.degrees = parameters.degrees, .jump_degrees = markers.latitudes(), .cut = {}}),
       fine_(4) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -74,7 +74,7 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
   bands_.emplace_back(grid, fluid::Centring::cell, across_);
 }
 
-void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours) {
+void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours, double more_reach) {
   jumps_.update(surface);
   fine_.update(surface, node_distance * grid_.min_spacing());
   positions_ = surface.positions();
@@ -86,8 +86,8 @@ void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours)
   // within reach at most, and takes in the faces on both sides.
   const double reach = force_reach();
   // A neighbour's marker outside reads no deeper inside than the diagonal of what it reads along the axes.
-  const double velocity_reach =
-      std::max(reach + more_reach_ + (1.0 + slack) * spacing_, has_neighbours ? std::sqrt(3.0) * reading_reach() : 0.0);
+  const double velocity_reach = std::max(reach + (std::min(more_reach, more_reach_) + 1.0 + slack) * spacing_,
+                                         has_neighbours ? std::sqrt(3.0) * reading_reach() : 0.0);
   for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, velocity_reach, &readers_);
   bands_[pressure_band].update(fine_, reach + (0.5 + slack) * spacing_);
 }
