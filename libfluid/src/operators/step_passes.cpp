@@ -45,13 +45,16 @@ StepCoefficients step_coefficients(double dt, double previous_dt) {
 
 void explicit_terms(const StepCoefficients& coefficients, double reynolds_number, double dt, const FaceVector& u,
                     const Field<Cell>& pressure, const FaceVector& force, const Vector3& uniform_force,
-                    FaceVector* convection, FaceVector& previous) {
+                    FaceVector* convection, FaceVector& previous, const std::optional<MomentumOperator>& implicit) {
   const Grid& grid = u.grid();
   const double c1 = reynolds_number * coefficients.a1 / dt;
   const double c2 = reynolds_number * coefficients.a2 / dt;
   const double n1 = reynolds_number * coefficients.b1;
   const double n2 = reynolds_number * coefficients.b2;
   const Vector3 per_h = inverse_spacing(grid);
+  const double mu = implicit ? implicit->mu : 0.0;
+  const Vector3 m{mu * per_h[0] * per_h[0], mu * per_h[1] * per_h[1], mu * per_h[2] * per_h[2]};
+  const double diagonal = 2.0 * (m[0] + m[1] + m[2]) + (implicit ? implicit->alpha : 0.0);
   const std::array<std::ptrdiff_t, 3> back{1, pressure.stride(1), pressure.stride(2)};
   const auto velocity = u.points();
   const auto forces = force.points();
@@ -67,6 +70,14 @@ void explicit_terms(const StepCoefficients& coefficients, double reynolds_number
 #pragma omp simd
     for (int i = range.begin[0]; i < range.end[0]; ++i) {
       out[i] = c1 * c[i] - c2 * out[i] - (p[i] - p_below[i]) * slope + (f[i] + everywhere);
+    }
+    if (implicit) {
+      const std::ptrdiff_t y = velocity[component].row_stride, z = velocity[component].plane_stride;
+#pragma omp simd
+      for (int i = range.begin[0]; i < range.end[0]; ++i) {
+        out[i] += m[0] * (c[i - 1] + c[i + 1]) + m[1] * (c[i - y] + c[i + y]) + m[2] * (c[i - z] + c[i + z]) -
+                  diagonal * c[i];
+      }
     }
     if (convection == nullptr) return;
     double* n = convection->points()[component].row(j, k);

@@ -33,11 +33,20 @@ void check_memory(const Grid& grid, const FluidParameters& parameters) {
                                       " GB; use fewer cells"));
 }
 
+void check_precision(const FluidParameters& parameters) {
+  if (parameters.precision == Precision::double_) return;
+  if (parameters.inertia == Inertia::none) {
+    throw std::invalid_argument(
+        "fluid: the precision is mixed and there is no inertia; mixed is of steps with inertia, take double");
+  }
+}
+
 FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
   const double re = parameters.reynolds_number;
   if (!(std::isfinite(re) && re > 0.0)) {
     throw std::invalid_argument(message("fluid: reynolds_number is ", re, "; it must be finite and > 0"));
   }
+  check_precision(parameters);
   parameters.viscosity.checked_range();
   check_viscosity(grid, parameters.viscosity);
   check_memory(grid, parameters);
@@ -101,6 +110,15 @@ bool is_finite(const FaceVector& u) {
 }
 
 }  // namespace
+
+SolverOptions in_precision(Precision precision, const EllipticProblem& problem, SolverOptions options) {
+  if (precision == Precision::double_) return options;
+  if (const auto* automatic = std::get_if<AutoOptions>(&options)) options = choose_solver(problem, *automatic).options;
+  auto* fft = std::get_if<FftOptions>(&options);
+  if (auto* pcg = std::get_if<PcgOptions>(&options)) fft = std::get_if<FftOptions>(&pcg->preconditioner);
+  if (fft != nullptr) fft->arithmetic = FftOptions::Arithmetic::single;
+  return options;
+}
 
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference) {
   const bool coupled =
@@ -420,7 +438,8 @@ void Stepper::update_velocity_solver(double a) {
   if (velocity_solver) {
     velocity_solver->update(problem);
   } else {
-    velocity_solver = make_elliptic_solver(problem, parameters.velocity_solver);
+    velocity_solver =
+        make_elliptic_solver(problem, in_precision(parameters.precision, problem, parameters.velocity_solver));
   }
 }
 
@@ -432,8 +451,15 @@ void Stepper::form_right_hand_side(const StepCoefficients& coefficients, double 
   }
   const PhaseTimer timer(timings.convection);
   explicit_terms(coefficients, parameters.reynolds_number, dt, velocity, pressure, force, uniform_force,
-                 convection_ ? &*convection_ : nullptr, previous);
-  if (!implicit_stress()) walls.add_diffusion(reference_viscosity_, previous);
+                 convection_ ? &*convection_ : nullptr, previous,
+                 solves_for_change()
+                     ? std::optional(MomentumOperator{velocity_solver->problem().alpha, reference_viscosity_})
+                     : std::nullopt);
+  if (solves_for_change()) {
+    walls.add_diffusion_of_change(reference_viscosity_, previous);
+  } else if (!implicit_stress()) {
+    walls.add_diffusion(reference_viscosity_, previous);
+  }
 }
 
 // What the operator of the velocity problem leaves out of div(mu (grad u + grad u^T)).
@@ -455,6 +481,9 @@ void Stepper::solve_momentum() {
   if (implicit_stress()) {
     report.momentum = velocity_solver->solve(std::as_const(previous).unknowns(), extrapolated_->unknowns());
     std::swap(previous, *extrapolated_);
+  } else if (solves_for_change()) {
+    report.momentum = velocity_solver->add_solution(std::as_const(previous).unknowns(),
+                                                    std::as_const(velocity).unknowns(), previous.unknowns());
   } else {
     report.momentum = velocity_solver->solve(std::as_const(previous).unknowns(), previous.unknowns());
   }

@@ -18,6 +18,9 @@ namespace vesiflow::fluid {
 // mu_reference is used where a field is explicit in part.
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference);
 
+// These options with single precision where they have fast transforms, if the precision is mixed.
+SolverOptions in_precision(Precision precision, const EllipticProblem& problem, SolverOptions options);
+
 class Stepper {
  public:
   Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary, WallMotion motion);
@@ -68,6 +71,8 @@ class Stepper {
   bool implicit_stress() const {
     return variable_viscosity() && parameters.viscous_treatment == ViscousTreatment::implicit;
   }
+  // Whether the velocity solve is for the change of the velocity.
+  bool solves_for_change() const { return parameters.precision == Precision::mixed && !implicit_stress(); }
   void advance_with_inertia(double dt);
   void extrapolate_and_solve_stokes(double dt);
   void solve_stokes(FaceVector& solution);
