@@ -77,8 +77,8 @@ class Stepper {
   void extrapolate_and_solve_stokes(double dt);
   void solve_stokes(FaceVector& solution);
   void add_change();
-  void keep_for(long step);
   void check_given();
+  void give_divergence();
   void believe_divergence();
   void start();
   void make_divergence_free();
@@ -87,7 +87,8 @@ class Stepper {
   void form_right_hand_side(const StepCoefficients& coefficients, double dt);
   void add_explicit_stress();
   void solve_momentum();
-  void project(double a, const WallVelocity& at_walls, FaceVector& u);
+  void solve_pressure();
+  void finish(FaceVector& u);
 
   CoefficientView unit_, viscosity_;
   double reference_viscosity_ = 0.0;        // mu, or its largest value
@@ -95,7 +96,8 @@ class Stepper {
   std::optional<FaceVector> extrapolated_;  // velocity at the new time, if a field of viscosity needs it
   std::optional<FaceVector> lift_;          // zero but for walls and ghosts, if the stress is implicit
   std::optional<StokesSolver> stokes_;      // if there is no inertia
-  Field<Cell> chi_;
+  Field<Cell> chi_;                         // what is too much of the divergence, and the potential that takes it away
+  double source_mean_ = 0.0;
   std::optional<Remembered> remembered_;
   std::optional<Driven> driven_;
   bool is_remembered_ = false;  // whether remembered_ is of this run, and not of one before set_velocity() or restore()

@@ -12,7 +12,8 @@
 namespace vesiflow::fluid {
 
 // What BlockFft does, for the lanes<float> / 2 complex lines of a block of float, by our own sums: FFTW's plans for
-// such blocks take hardly less time in single than in double precision (0.8 to 0.9 of it), these about a third.
+// such blocks take hardly less time per number in single than in double precision, 0.8 to 1.0 of it; these 0.2 to 0.7
+// (docs/adr/0011-single-precision-in-the-velocity-solve.md).
 class SingleFft {
  public:
   SingleFft(int n, Direction direction);
