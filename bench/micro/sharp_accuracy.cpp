@@ -146,7 +146,7 @@ class SharpMembrane {
  private:
   // That of mu u, where the mean of u is zero.
   Vector3 mean_flow(coupling::InterfaceVelocity& interface) const {
-    return -interface.displaced(surface_) / std::pow(2.0 * half_width, 3);
+    return -(interface.displaced(surface_) + transfer_.integral_beyond_sum()) / std::pow(2.0 * half_width, 3);
   }
 
   const Surface& surface_;

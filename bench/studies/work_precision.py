@@ -7,7 +7,7 @@ usage: scripts/python.sh bench/studies/work_precision.py CASE... [--quick] [--jo
        scripts/python.sh bench/studies/work_precision.py --list | --estimate
 
 CASE is one of tank_treading, ratio_5, ratio_5_sharp, ratio_20, relaxation, duct, extension, and, of what method.accuracy chooses, on scenes that were not used to
-choose it, unseen, unseen_tilted, unseen_contrast and unseen_inertia; or all. Writes bench/results/work_precision/CASE.json (CASE.quick.json with --quick: coarser
+choose it, unseen, unseen_tilted, unseen_contrast, unseen_inertia and unseen_thin_inertia; or all. Writes bench/results/work_precision/CASE.json (CASE.quick.json with --quick: coarser
 references and fewer runs) and docs/figures/work_precision_CASE.png; --docs puts the stored tables into
 docs/studies/work_precision.md. Runs have one thread each and are kept in out/validation: what is done is not run again, and what was
 interrupted goes on from its checkpoint. Seconds are of the processor, of whole runs with start and output: on shared cores they vary by a fifth.

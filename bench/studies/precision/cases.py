@@ -352,12 +352,12 @@ def tilted_case(quick):
                        {"angle": "inclination_angle_deg", "deformation": "deformation"}, quick)
 
 
-def sharp_preset_case(name, title, keys, columns, quick):
+def sharp_preset_case(name, title, keys, columns, quick, steps=96):
     """What method.accuracy chooses where it takes sharp membranes, on a scene that was not used to choose it."""
     width = 8.0
     levels = ((64, "1e-2"), (128, "1e-3"))[:1 if quick else 2]
     sweeps = [(f"accuracy {level}", "level", {"cells": n, "method.accuracy": level}) for n, level in levels]
-    fine = SHARP | {"mesh.latitudes": 40 if quick else 64, "time.step": "1/96"}
+    fine = SHARP | {"mesh.latitudes": 40 if quick else 64, "time.step": f"1/{steps}"}
     grids = (64, 48) if quick else (128, 96)
     sweeps += [("sharp", "grid", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": "1/96"} | SHARP) for n in (32, 40, 48)]
     step = SHARP | {"cells": 40, "mesh.latitudes": 32}
@@ -365,7 +365,7 @@ def sharp_preset_case(name, title, keys, columns, quick):
         name, f"not used in the choice: {title}", "scenes/poiseuille_off_axis.toml",
         {"output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2} | keys,
         sweeps, estimate_of_second_order("sharp, extrapolated from two grids", width, grids, fine), [finest("finest grid", grids[0], fine)],
-        [("time step, on 40 cells", step | {"time.step": "1/96"}, step | {"time.step": "1/384"})], columns, 0.25, width, (1, 0.5, 1))
+        [("time step, on 40 cells", step | {"time.step": f"1/{steps}"}, step | {"time.step": f"1/{4 * steps}"})], columns, 0.25, width, (1, 0.5, 1))
 
 
 def unseen_contrast_case(quick):
@@ -379,7 +379,14 @@ def unseen_inertia_case(quick):
                              {"fluid.viscosity_ratio": 1.7, "fluid.reynolds_number": 5, "membrane.capillary_number": 2, "flow.type": "shear",
                               "domain.periodic": [False] * 3, "vesicles.0.reduced_volume": 0.92, "vesicles.0.centre": [0, 0, 0],
                               "vesicles.0.rotation_deg": 25, "time.end": 3},
-                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick)
+                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick, 192)
+
+
+def unseen_thin_inertia_case(quick):
+    return sharp_preset_case("unseen_thin_inertia", "reduced volume 0.85, ratio 0.6, Re = 9, Ca = 1.2, off the axis of plane Poiseuille flow, to t = 3",
+                             {"fluid.viscosity_ratio": 0.6, "fluid.reynolds_number": 9, "membrane.capillary_number": 1.2, "vesicles.0.reduced_volume": 0.85,
+                              "time.end": 3},
+                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick, 192)
 
 
 def sharp_contrast_case(quick):
@@ -414,6 +421,7 @@ BUILDERS = {
     "unseen_tilted": tilted_case,
     "unseen_contrast": unseen_contrast_case,
     "unseen_inertia": unseen_inertia_case,
+    "unseen_thin_inertia": unseen_thin_inertia_case,
 }
 
 

@@ -40,9 +40,8 @@ struct VesicleState {
 
   /// Where there is inertia too: mu u inside, continued out of the membrane, in a box of the grid around it. The first point and the
   /// number of points along each axis, then the components as fields of such a grid hold them, with their ghosts. Else, and before
-  /// the first step, empty.
-  std::vector<double> inner_velocity = {};
-  std::vector<double> previous_inner_velocity = {};  ///< the same one step ago
+  /// the first step, empty. Now and at the times before of SimulationState::outer_velocities.
+  std::vector<std::vector<double>> inner_velocities = {};
 };
 /// The end of another run that a simulation has started from, for the summary and for continued runs.
 struct Start {
@@ -62,8 +61,15 @@ struct SimulationState {
   std::shared_ptr<const Start> start;  ///< none where vesicles have started as the parameters say
 
   /// Sharp membranes between two viscosities in a fluid with inertia: the velocity of the outer fluid, continued into the
-  /// membranes, now and one step ago. Else, and before the first step, empty.
+  /// membranes, now, one step ago and, but for thin insides and in the second step, two steps ago. Else, and before the first step,
+  /// empty.
   std::vector<fluid::FaceVector> outer_velocities = {};
+  /// The length of the step before the last one, where there are three of them; else zero.
+  double earlier_step = 0.0;
+
+  /// Sharp membranes between two viscosities in a box without walls, without inertia: what `velocity` lacks of being mu u, u
+  /// of zero mean. Else zero.
+  fluid::Vector3 mean_flow{};
 };
 
 /// The velocity of the fluid of a state, which SimulationState::velocity is but for sharp membranes between two

@@ -10,6 +10,7 @@
 
 #include "coupling/delta_kernel.h"
 #include "coupling/export.h"
+#include "coupling/phase_splitting.h"
 #include "coupling/marker_motion.h"
 #include "fluid/elliptic_solver.h"
 #include "fluid/navier_stokes.h"
@@ -212,6 +213,8 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
   bool has_scaled_velocity() const;
   /// Whether the inertia of the two phases is put on the fluid as a force: the same, in a fluid with inertia.
   bool has_phase_inertia() const;
+  /// How, where it is.
+  PhaseSplitting phase_splitting() const;
   /// Whether a step of length dt solves the fluid a second time, with the forces that implicit terms stand for: sharp
   /// membranes, shape_following, and inertia that matters within a step: its viscous layer, sqrt(dt/Re), is thinner than
   /// the largest vesicle's radius. Otherwise the fluid has forgotten the velocity of the last step, and what it has not heard of

@@ -58,6 +58,13 @@ constexpr double largest_reynolds_number_of_thin_sharp(double least_ratio) {
   return least_ratio < 0.2 ? 0.1 * least_ratio : 1.0;
 }
 
+/// To which Reynolds number of a vesicle the inertia of two phases is extrapolated in the cheapest way, of first order in the step: at ratio 5
+/// and Re = 5 the angle is off by 3 % with steps of 1/48, and this error falls with Re.
+constexpr double slow_reynolds_number_of_phases = 0.1;
+/// Above, steps are of second order while viscosities differ by a factor of up to this and none is below thin_sharp_ratio (derived:
+/// PhaseInertia::splitting).
+constexpr double widest_contrast_of_second_order = 5.0;
+
 /// Nearest that a sharp membrane comes to a wall, in spacings: nearer, markers would read points beyond it.
 constexpr double sharp_wall_clearance = 1.5;
 /// Fewest spacings of the grid per radius of a sharp membrane: with 4 the angle at ratio 5 is within 8 %

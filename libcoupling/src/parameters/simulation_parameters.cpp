@@ -82,6 +82,12 @@ bool SimulationParameters::has_phase_inertia() const {
   return has_scaled_velocity() && fluid.inertia != fluid::Inertia::none;
 }
 
+PhaseSplitting SimulationParameters::phase_splitting() const {
+  const auto [least, greatest] = viscosity_range();
+  return coupling::phase_splitting(fluid.reynolds_number, least, greatest,
+                                   vesicle_reynolds_number(*this) <= validity::slow_reynolds_number_of_phases);
+}
+
 bool SimulationParameters::corrects_fluid(double dt) const {
   if (coupling.method != CouplingMethod::sharp || fluid.inertia == fluid::Inertia::none ||
       time.markers != MarkerMotion::shape_following)

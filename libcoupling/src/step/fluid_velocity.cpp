@@ -15,7 +15,6 @@
 #include "transfer/fine_surface.h"
 #include "transfer/grid_band.h"
 #include "vesicle/surface.h"
-#include "viscosity/interface_velocity.h"
 #include "viscosity/physical_velocity.h"
 
 namespace vesiflow::coupling {
@@ -40,14 +39,11 @@ void require_state_of(const SimulationParameters& parameters, const SimulationSt
 class Interface {
  public:
   Interface(const fluid::Grid& grid, const VesicleState& state, int latitudes, double ratio)
-      : surface_(latitudes), velocity_(ratio, state.membrane.positions.rows()), fine_(0), ratio_(ratio) {
+      : surface_(latitudes), fine_(0), ratio_(ratio) {
     surface_.update(state.membrane.positions);
-    velocity_.set(state.interface_velocity);
     // A mesh that bands find the points next to it from.
     fine_.update(surface_, 0.9 * grid.min_spacing());
   }
-
-  vesicle::Vector3 displaced() { return velocity_.displaced(surface_); }
 
   void divide(PhysicalVelocity& velocity, const fluid::Grid& grid) const {
     for (int component = 0; component < 3; ++component) {
@@ -60,7 +56,6 @@ class Interface {
 
  private:
   vesicle::Surface surface_;
-  InterfaceVelocity velocity_;
   FineSurface fine_;
   double ratio_;
 };
@@ -84,15 +79,8 @@ fluid::FaceVector fluid_velocity_of(const SimulationParameters& parameters, cons
   for (std::size_t i = 0; i < state.vesicles.size(); ++i)
     if (const double ratio = parameters.viscosity_ratio(i); ratio != 1.0)
       interfaces.emplace_back(grid, state.vesicles[i], parameters.latitudes(i), ratio);
-  fluid::Vector3 mean{};
-  if (!grid.has_walls() && !parameters.has_phase_inertia())  // see Simulation::mean_flow()
-    for (Interface& interface : interfaces) {
-      const vesicle::Vector3 displaced = interface.displaced();
-      for (int axis = 0; axis < 3; ++axis)
-        mean[static_cast<std::size_t>(axis)] -= displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
-    }
   PhysicalVelocity velocity(grid);
-  velocity.set(state.velocity, mean);
+  velocity.set(state.velocity, state.mean_flow);
   for (const Interface& interface : interfaces) interface.divide(velocity, grid);
   return std::move(velocity).take();
 }

@@ -127,12 +127,22 @@ void ImmersedVesicle::predict(double dt) {
   update();
 }
 
-void ImmersedVesicle::meet_grid(bool has_neighbours) {
+// Two phases with inertia are differenced within half a spacing of where the membrane will be after the steps that they are
+// kept for. Twice as far as it moves at the present speed is allowed for, and what least_reach leaves.
+double ImmersedVesicle::more_reach(double dt) const {
+  if (!two_phase) return 0.0;
+  constexpr double of_differences = 1.5, steps = BodyPhases::times - 1;
+  const double speed = (two_phase->value() * membrane.surface().normal()).rowwise().sum().abs().maxCoeff();
+  const double moved = steps * dt * speed / sharp->grid().min_spacing();
+  return std::max(0.0, of_differences + 2.0 * moved - SharpTransfer::least_reach);
+}
+
+void ImmersedVesicle::meet_grid(double dt, bool has_neighbours) {
   transfer.update(membrane.positions());
   if (!sharp) return;
   all_force_ = force();
   if (const vesicle::VectorField* owed = motion->owed_force()) all_force_ += *owed;
-  sharp->update(membrane.surface(), has_neighbours);
+  sharp->update(membrane.surface(), has_neighbours, more_reach(dt));
 }
 
 void ImmersedVesicle::read_sharp(const fluid::FaceVector& velocity, vesicle::VectorField& at_markers) const {
@@ -221,7 +231,7 @@ void ImmersedVesicle::meet_start(double dt, const fluid::FaceVector& velocity) {
 void ImmersedVesicle::interpolate(double dt, const fluid::FaceVector& velocity) {
   if (sharp) {
     update();
-    meet_grid();
+    meet_grid(dt);
     sharp->set_force(all_force_, two_phase ? &two_phase->jump() : nullptr);
     if (two_phase)
       velocities.fluid = two_phase->value();

@@ -35,8 +35,8 @@ struct ImmersedVesicle {
   /// Geometry and forces at the state whose forces drive the step.
   void predict(double dt);
 
-  /// Looks up where the membrane is on the grid; whether others are so near that their markers read inside it.
-  void meet_grid(bool has_neighbours = false);
+  /// Looks up where the membrane is on the grid, in steps of dt; whether others are so near that their markers read inside it.
+  void meet_grid(double dt, bool has_neighbours = false);
   /// Takes off the grid what it has put there before.
   void clear(fluid::NavierStokes& fluid);
   /// Puts its force on it; with `correction`, also that which its motion corrects the fluid by.
@@ -88,6 +88,7 @@ struct ImmersedVesicle {
   bool is_current = false;  ///< whether geometry and forces are those of the membrane's state
 
  private:
+  double more_reach(double dt) const;
   void read_sharp(const fluid::FaceVector& velocity, vesicle::VectorField& at_markers) const;
 
   std::optional<ThicknessCorrection> thickness_;

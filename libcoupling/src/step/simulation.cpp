@@ -42,11 +42,8 @@ std::unique_ptr<ViscosityContrast> contrast_of(const SimulationParameters& param
 fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameters, const ViscosityContrast* contrast) {
   fluid::FluidParameters of_fluid = fluid_parameters_of(parameters);
   if (contrast != nullptr) of_fluid.viscosity = contrast->field();
-  if (parameters.has_phase_inertia()) {  // which has convection and all that a has too much
-    of_fluid.inertia = fluid::Inertia::unsteady;
-    of_fluid.reynolds_number =
-        PhaseInertia::solved_reynolds_number(parameters.fluid.reynolds_number, parameters.viscosity_range().least);
-  }
+  if (parameters.has_phase_inertia())  // which takes off what that is too much
+    of_fluid.reynolds_number = parameters.phase_splitting().solved_reynolds_number;
   return of_fluid;
 }
 
@@ -107,7 +104,8 @@ void Simulation::make_vesicles() {
     std::vector<PhaseInertia::Body> bodies;
     for (const auto& v : vesicles_)
       if (v->two_phase) bodies.push_back({&*v->sharp, v->two_phase->ratio()});
-    phase_inertia_ = std::make_unique<PhaseInertia>(fluid_.grid(), parameters_.fluid.reynolds_number, std::move(bodies),
+    phase_inertia_ = std::make_unique<PhaseInertia>(fluid_.grid(), parameters_.fluid.reynolds_number,
+                                                    parameters_.phase_splitting(), std::move(bodies),
                                                     parameters_.fluid.inertia == fluid::Inertia::full);
     fluid_.keep_force();  // the interfaces' velocities are iterated
   }
@@ -271,14 +269,14 @@ SimulationState Simulation::state() const {
                               v->previous_interface_velocity()});
   }
   state.clock.steps = steps();
+  state.mean_flow = mean_flow_;
   if (phase_inertia_ && fluid_.steps() > 0) {
-    state.outer_velocities = phase_inertia_->outer_state();
+    state.outer_velocities = phase_inertia_->outer_state(fluid_);
+    state.earlier_step = phase_inertia_->earlier_step();
     std::size_t body = 0;
     for (std::size_t i = 0; i < vesicles_.size(); ++i) {
       if (!vesicles_[i]->two_phase) continue;
-      auto [now, before] = phase_inertia_->inner_state(body++);
-      state.vesicles[i].inner_velocity = std::move(now);
-      state.vesicles[i].previous_inner_velocity = std::move(before);
+      state.vesicles[i].inner_velocities = phase_inertia_->inner_state(body++);
     }
   }
   if (step_control_) state.step_control = step_control_->state();
@@ -290,8 +288,8 @@ void Simulation::restore_phases(const SimulationState& state) {
   std::vector<PhaseInertia::InnerState> inner;
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
     if (vesicles_[i]->two_phase)
-      inner.push_back({state.vesicles[i].inner_velocity, state.vesicles[i].previous_inner_velocity});
-  phase_inertia_->restore(state.outer_velocities, inner, fluid_);
+      inner.push_back(state.vesicles[i].inner_velocities);
+  phase_inertia_->restore(state.outer_velocities, inner, state.earlier_step, fluid_);
 }
 
 void Simulation::restore(const SimulationState& state) {
@@ -316,10 +314,9 @@ void Simulation::restore(const SimulationState& state) {
     v.noise.restart();
     if (fluid_.steps() > 0)
       v.restore_interface_velocity(state.vesicles[i].interface_velocity, state.vesicles[i].previous_interface_velocity);
-    if (v.two_phase) v.update();  // the mean flow is of its present shape
   }
   if (phase_inertia_ && fluid_.steps() > 0) restore_phases(state);
-  mean_flow_ = mean_flow();
+  mean_flow_ = state.mean_flow;
   for (auto& v : vesicles_) {
     v->mean_flow = mean_flow_;
     read_velocity(*v);

@@ -106,7 +106,7 @@ void Simulation::spread_forces(double dt) {
   {
     const PhaseTimer timer(phases_.spread);
     find_neighbours();
-    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(!neighbours_[i].empty()); });
+    for_each_vesicle(vesicles_.size(), [&](std::size_t i) { vesicles_[i]->meet_grid(dt, !neighbours_[i].empty()); });
   }
   prepare_inertia(dt);
   for (auto& v : vesicles_)
@@ -163,8 +163,8 @@ void Simulation::clear_forces() {
   for (auto& v : vesicles_) v->clear(fluid_);
   if (fluid_force_)
     put_fluid_force();
-  else if (phase_inertia_)  // which is everywhere
-    fluid_.force().fill(0.0);
+  else if (phase_inertia_)
+    phase_inertia_->clear(fluid_.force());
 }
 
 // On one grid, in this order: sums are the same for any number of threads.
@@ -288,20 +288,20 @@ void Simulation::check_mirrors(std::size_t i) const {
 void Simulation::keep_phases() {
   if (!phase_inertia_) return;
   const PhaseTimer timer(phases_.spread);
-  phase_inertia_->keep(fluid_.velocity());
+  phase_inertia_->keep(fluid_.velocity(), fluid_.clock().time_step);
 }
 
-// Without walls the mean of mu u, which the fluid's solver takes to be zero, is such that that of u is. With inertia the solver has a mean
-// of its own, from the forces.
+// Without walls the mean of mu u is such that that of u is zero. The fluid's solver takes the sum of mu u over the points of
+// the grid to be zero, which is not its integral. With inertia the solver has a mean of its own, from the forces.
 fluid::Vector3 Simulation::mean_flow() const {
   fluid::Vector3 mean{};
   const fluid::Grid& grid = fluid_.grid();
   if (grid.has_walls() || phase_inertia_) return mean;
   for (const auto& v : vesicles_) {
     if (!v->two_phase) continue;
-    const vesicle::Vector3 displaced = v->two_phase->displaced(v->membrane.surface());
+    const vesicle::Vector3 lacking = v->two_phase->displaced(v->membrane.surface()) + v->sharp->integral_beyond_sum();
     for (int axis = 0; axis < 3; ++axis)
-      mean[static_cast<std::size_t>(axis)] -= displaced[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
+      mean[static_cast<std::size_t>(axis)] -= lacking[axis] / (grid.length(0) * grid.length(1) * grid.length(2));
   }
   return mean;
 }

@@ -73,8 +73,8 @@ class Walkers {
 
   void look(int i, const SurfacePoint& surface) {
     for (int k = 0; k < 3; ++k) {
-      position_[at(k)][at(i)] = surface.position[k];
-      normal_[at(k)][at(i)] = surface.normal[k];
+      position_[at(k)][at(i)] = surface.position_and_normal[k];
+      normal_[at(k)][at(i)] = surface.position_and_normal[4 + k];
     }
     for (int k = 0; k < 15; ++k) slopes_[at(k)][at(i)] = surface.slopes[k];
   }

@@ -14,12 +14,12 @@ namespace vesiflow::coupling {
 
 namespace {
 
-/// A sixteenth more, and then the next of 16 sizes an octave, so that a body that breathes is on few meshes. Even, so that
-/// there are columns at right angles to the first one: of two nodes at the same distance from a point on a plane of symmetry
-/// one would be taken.
+/// A sixteenth more, and then the next of 8 sizes an octave, so that a body that breathes is on few meshes, whose transforms
+/// have no prime factors above 13. Even, so that there are columns at right angles to the first one: of two nodes at the
+/// same distance from a point on a plane of symmetry one would be taken.
 int rounded_up(int latitudes) {
   const int more = latitudes + latitudes / 16;
-  const int step = std::max(2, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 16);
+  const int step = std::max(2, static_cast<int>(std::bit_floor(static_cast<unsigned>(more))) / 8);
   return (more + step - 1) / step * step;
 }
 
@@ -35,7 +35,8 @@ void FineSurface::choose_mesh(int latitudes, int degrees) {
   const auto size = static_cast<std::size_t>(mesh().table_size());
   resize_with_room(surface_, size);
   resize_with_room(jumps_, size * static_cast<std::size_t>(own_records_));
-  std::ranges::fill(surface_, SurfacePoint{Four::Zero(), Four::Zero(), decltype(SurfacePoint::slopes)::Zero()});
+  std::ranges::fill(surface_, SurfacePoint{decltype(SurfacePoint::position_and_normal)::Zero(),
+                                           decltype(SurfacePoint::slopes)::Zero()});
   std::ranges::fill(jumps_, Four::Zero());
 }
 
@@ -64,8 +65,8 @@ void FineSurface::tabulate_surface() {
     const auto row = [node](const auto& field) { return Eigen::Vector3d(field.row(node).transpose()); };
     const Eigen::Vector3d n = row(g.normal());
     SurfacePoint& point = surface_[static_cast<std::size_t>(mesh().in_table(j, i))];
-    point.position.head<3>() = row(values_).array();
-    point.normal.head<3>() = n.array();
+    point.position_and_normal.segment<3>(0) = row(values_).array();
+    point.position_and_normal.segment<3>(4) = n.array();
 
     const Eigen::Vector3f dual_theta = row(g.dual_theta()).cast<float>(), dual_phi = row(g.dual_phi()).cast<float>();
     const auto [s_theta, s_phi] = mesh().tangents_at({j, i});
@@ -123,28 +124,25 @@ void FineSurface::set(const vesicle::Coefficients& fields, const std::vector<int
     mesh().fill_margins(jumps_.data() + mesh().table_size() * record);
 }
 
-const FineSurface::Four& FineSurface::at_node(int column, int row, int record) const {
+FineSurface::Four FineSurface::at_node(int column, int row, int record) const {
   const auto node = static_cast<std::size_t>(mesh().in_table(row, column));
-  if (record == position) return surface_[node].position;
-  return record == normal ? surface_[node].normal : table_of(record)[node];
+  if (record == position) return surface_[node].position();
+  return record == normal ? Four(surface_[node].normal()) : table_of(record)[node];
 }
 
 SurfacePoint FineSurface::at(const Place& place) const {
+  using Both = decltype(SurfacePoint::position_and_normal);
   using Slopes = decltype(SurfacePoint::slopes);
   constexpr int width = ParameterMesh::width;
   const ParameterMesh::Weights weights = mesh().weights(place);
   const SurfacePoint* const first = surface_.data() + mesh().first_in_table(place);
-  SurfacePoint sum{Four::Zero(), Four::Zero(), Slopes::Zero()};
+  SurfacePoint sum{Both::Zero(), Slopes::Zero()};
   // Twice over the nodes, so that the weights of the columns stay in registers.
   const SurfacePoint* node = first;
   for (int j = 0; j < width; ++j, node += mesh().row_size()) {
-    Four x = Four::Zero(), n = Four::Zero();
-    for (int i = 0; i < width; ++i) {
-      x += weights.of_column[i] * node[i].position;
-      n += weights.of_column[i] * node[i].normal;
-    }
-    sum.position += weights.of_row[j] * x;
-    sum.normal += weights.of_row[j] * n;
+    Both row = Both::Zero();
+    for (int i = 0; i < width; ++i) row += weights.of_column[i] * node[i].position_and_normal;
+    sum.position_and_normal += weights.of_row[j] * row;
   }
   Eigen::Array<float, 8, 1> of_row, of_column;
 #pragma omp simd

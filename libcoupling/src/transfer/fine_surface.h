@@ -14,8 +14,9 @@ namespace vesiflow::coupling {
 /// A surface about one of its points, as far as the way from there to another one needs. What only says how far to go is
 /// of single precision: it changes a step by 1e-7 of its length, and steps are short.
 struct SurfacePoint {
-  Eigen::Array4d position;  ///< X, 0
-  Eigen::Array4d normal;    ///< n, outward, 0
+  Eigen::Array<double, 8, 1> position_and_normal;  ///< X, 0, n (outward), 0
+  auto position() const { return position_and_normal.head<4>(); }
+  auto normal() const { return position_and_normal.tail<4>(); }
   /// The gradient of the direction that names the point, d(s_i)/d(x_j) row by row, then S = grad_s n by xx, yy, zz, xy,
   /// yz, zx, and 0. S is symmetric, and S n = 0.
   Eigen::Array<float, 16, 1> slopes;
@@ -55,7 +56,7 @@ class FineSurface {
 
   /// One of the records at a place, and at a node.
   Four value(const Place& place, int record) const;
-  const Four& at_node(int column, int row, int record) const;
+  Four at_node(int column, int row, int record) const;
   /// The surface at a place, and at a node.
   SurfacePoint at(const Place& place) const;
   const SurfacePoint& at(Node node) const {
@@ -119,9 +120,8 @@ FineSurface::Four FineSurface::interpolated(const Place& place, const T* table, 
 
 inline FineSurface::Four FineSurface::value(const Place& place, int record) const {
   if (record == position)
-    return interpolated(place, surface_.data(), [](const SurfacePoint& p) -> const Four& { return p.position; });
-  if (record == normal)
-    return interpolated(place, surface_.data(), [](const SurfacePoint& p) -> const Four& { return p.normal; });
+    return interpolated(place, surface_.data(), [](const SurfacePoint& p) { return p.position(); });
+  if (record == normal) return interpolated(place, surface_.data(), [](const SurfacePoint& p) { return p.normal(); });
   return interpolated(place, table_of(record), [](const Four& four) -> const Four& { return four; });
 }
 

@@ -43,9 +43,8 @@ void NearestNodes::search_planes(const FineSurface& surface, const GridBox& whol
   const auto part = [units = units_, most = static_cast<double>(most_units_), bits = node_bits_](double distance) {
     return static_cast<Key>(static_cast<std::int32_t>(std::min(units * distance * distance, most))) << bits;
   };
-  const Key most = most_units_ << node_bits_;
   for (const FineSurface::Node node : surface.sparse_nodes()) {
-    const auto& x = surface.at(node).position;
+    const auto& x = surface.at(node).position_and_normal;
     const auto number = static_cast<Key>(node.row * surface.longitudes() + node.column);
     const auto range = [&](int axis, int least, int greatest) {
       return PointRange{std::max(least, static_cast<int>(std::ceil(box.index_at(axis, x[axis] - reach_)))),
@@ -67,9 +66,9 @@ void NearestNodes::search_planes(const FineSurface& surface, const GridBox& whol
         for (int k = planes.from; k <= planes.to; ++k) {
           const Key along_z = part(box.coordinate(2, k) - x[2]);
           Key* keys = keys_.data() + box.offset(i, first_row, k);
+          // Rows beyond the reach are not left out: a branch that is hard to foresee costs more.
           for (int b = 0; b < count; ++b, keys += box.extent[0]) {
             const Key rest = along_y[b] + along_z;
-            if (rest > most) continue;
 #pragma omp simd
             for (int a = 0; a < lanes; ++a) {
               const Key key = along_x[a] + rest;

@@ -48,13 +48,22 @@ Eigen::Array4d lagrange(double x) {
           sixth * before * (x * after)};
 }
 
+// Of integral_beyond_sum(), in spacings: within what all points of the velocity's bands are known to.
+constexpr double counting_width = 2.0;
+
+// From 1 at -1 to 0 at 1, with two continuous derivatives; the integral of x (H(-x) - step) vanishes.
+double moment_free_step(double x) {
+  const double y = x * x;
+  return 0.5 + x * (-105.0 + y * (175.0 + y * (-147.0 + y * 45.0))) / 64.0;
+}
+
 }  // namespace
 
 SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters)
     : grid_(grid),
       smoothing_(parameters.smoothing * grid.min_spacing()),
       spacing_(std::max({grid.spacing(0), grid.spacing(1), grid.spacing(2)})),
-      more_reach_(parameters.more_reach * spacing_),
+      more_reach_(parameters.more_reach),
       jumps_(markers, {.degrees = parameters.degrees, .jump_degrees = markers.latitudes(), .cut = {}}),
       fine_(4) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -65,7 +74,7 @@ SharpTransfer::SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid&
   bands_.emplace_back(grid, fluid::Centring::cell, across_);
 }
 
-void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours) {
+void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours, double more_reach) {
   jumps_.update(surface);
   fine_.update(surface, node_distance * grid_.min_spacing());
   positions_ = surface.positions();
@@ -77,8 +86,8 @@ void SharpTransfer::update(const vesicle::Surface& surface, bool has_neighbours)
   // within reach at most, and takes in the faces on both sides.
   const double reach = force_reach();
   // A neighbour's marker outside reads no deeper inside than the diagonal of what it reads along the axes.
-  const double velocity_reach =
-      std::max(reach + more_reach_ + (1.0 + slack) * spacing_, has_neighbours ? std::sqrt(3.0) * reading_reach() : 0.0);
+  const double velocity_reach = std::max(reach + (std::min(more_reach, more_reach_) + 1.0 + slack) * spacing_,
+                                         has_neighbours ? std::sqrt(3.0) * reading_reach() : 0.0);
   for (std::size_t c = 0; c < 3; ++c) bands_[c].update(fine_, velocity_reach, &readers_);
   bands_[pressure_band].update(fine_, reach + (0.5 + slack) * spacing_);
 }
@@ -284,6 +293,22 @@ void SharpTransfer::interpolate(const fluid::FaceVector& velocity, vesicle::Vect
       for (Eigen::Index m = begin; across_[axis] && m < end; ++m)
         if (positions_(m, axis) < grid_.lower[axis]) marker_velocity(m, axis) = -marker_velocity(m, axis);
   });
+}
+
+// The velocity is a smooth field less chi g, g the jump. Where a wide step replaces chi, a sum over points is the integral
+// to high order: what it is beyond that is the sum of (chi - step) g, whose integral vanishes to the fourth order if the
+// first moment of chi - step does, the zeroth being zero for any odd step.
+Eigen::Vector3d SharpTransfer::integral_beyond_sum() const {
+  const double width = counting_width * spacing_;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const GridBand& band = bands_[static_cast<std::size_t>(c)];
+    for (const GridBand::Point& point : band.points()) {
+      const double d = point.distance();
+      if (std::abs(d) < width) sum[c] += ((d < 0.0 ? 1.0 : 0.0) - moment_free_step(d / width)) * band.jump(point.at);
+    }
+  }
+  return grid_.cell_volume() * sum;
 }
 
 double SharpTransfer::mean_of_sides(const GridBand& band, const fluid::ConstView& u, Eigen::Index marker) const {

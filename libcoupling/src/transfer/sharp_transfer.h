@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "coupling/marker_transfer.h"
@@ -40,7 +41,7 @@ class SharpTransfer {
     /// In spacings. Where theta varies, what D lacks of obeying the equations is force: the less the narrower, while points
     /// that change sides do so more suddenly. docs/jump_conditions.md#how-wide-the-step-is.
     double smoothing = 0.5;
-    /// How much further than forces need it points of the velocity know their jumps, in spacings.
+    /// How much further than forces need it points of the velocity know their jumps at most, in spacings.
     double more_reach = 0.0;
     /// Per axis with a mirror plane: whether the membrane lies across it.
     std::array<bool, 3> across{true, true, true};
@@ -48,9 +49,15 @@ class SharpTransfer {
 
   SharpTransfer(const fluid::Grid& grid, const vesicle::SphereGrid& markers, const Parameters& parameters);
 
+  const fluid::Grid& grid() const { return grid_; }
+
   /// Takes a membrane's shape. Jumps, forces and velocities that follow are on it.
   /// \param has_neighbours whether markers of others may read inside it
-  void update(const vesicle::Surface& surface, bool has_neighbours = false);
+  /// \param more_reach where less than the parameter is enough, in spacings
+  void update(const vesicle::Surface& surface, bool has_neighbours = false,
+              double more_reach = std::numeric_limits<double>::infinity());
+  /// How far points of the velocity know their jumps if more_reach is 0, in spacings.
+  static constexpr double least_reach = 2.0;
   /// How far from a membrane its markers read, along each axis.
   double reading_reach() const { return 0.5 * GridBand::read_points * spacing_; }
   /// Whether the axis has a mirror plane that the membrane is on one side of: then its mirror image is a membrane too.
@@ -71,6 +78,10 @@ class SharpTransfer {
 
   /// Velocity at the markers (markers x 3) of the last update.
   void interpolate(const fluid::FaceVector& velocity, vesicle::VectorField& marker_velocity) const;
+
+  /// What the integral of the velocity that has been solved for is more than the sum over the points of the grid times
+  /// their volume, which counts points inside as a whole. Without mirror planes. docs/jump_conditions.md#the-mean-flow.
+  Eigen::Vector3d integral_beyond_sum() const;
 
   /// The points of a component of the velocity, 0 to 2, that are near the membrane of the last update.
   const GridBand& band(int component) const { return bands_[static_cast<std::size_t>(component)]; }

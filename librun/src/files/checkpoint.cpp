@@ -56,6 +56,9 @@ void read_velocity(const Hdf5File& file, const std::string& name, fluid::FaceVec
   read_field(file, name + "/z", u.z, path);
 }
 
+/// Of VesicleState::inner_velocities.
+constexpr std::array<const char*, 3> inner_names{"/inner_velocity", "/previous_inner_velocity", "/earlier_inner_velocity"};
+
 void write_vesicle(Hdf5File& file, const std::string& group, const coupling::VesicleState& state) {
   const auto& m = state.membrane;
   write_array(file, group + "/positions", m.positions.data(), m.positions.size());
@@ -75,11 +78,10 @@ void write_vesicle(Hdf5File& file, const std::string& group, const coupling::Ves
   if (state.previous_interface_velocity.size() > 0)
     write_array(file, group + "/previous_interface_velocity", state.previous_interface_velocity.data(),
                 state.previous_interface_velocity.size());
-  const auto write_row = [&](const std::string& name, const std::vector<double>& row) {
-    if (!row.empty()) write_array(file, group + name, row.data(), static_cast<Eigen::Index>(row.size()));
-  };
-  write_row("/inner_velocity", state.inner_velocity);
-  write_row("/previous_inner_velocity", state.previous_inner_velocity);
+  for (std::size_t i = 0; i < state.inner_velocities.size(); ++i) {
+    const std::vector<double>& row = state.inner_velocities[i];
+    write_array(file, group + inner_names.at(i), row.data(), static_cast<Eigen::Index>(row.size()));
+  }
 }
 
 coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& group, Eigen::Index markers,
@@ -110,10 +112,8 @@ coupling::VesicleState read_vesicle(const Hdf5File& file, const std::string& gro
   };
   read_velocity("/interface_velocity", state.interface_velocity);  // of sharp membranes between two viscosities
   read_velocity("/previous_interface_velocity", state.previous_interface_velocity);
-  if (file.exists(group + "/inner_velocity")) {  // of those in a fluid with inertia
-    state.inner_velocity = file.read(group + "/inner_velocity");
-    state.previous_inner_velocity = file.read(group + "/previous_inner_velocity");
-  }
+  for (const char* name : inner_names)  // of those in a fluid with inertia
+    if (file.exists(group + name)) state.inner_velocities.push_back(file.read(group + name));
   return state;
 }
 
@@ -251,8 +251,11 @@ auto as_input(const Read& read) {
   }
 }
 
-/// Of SimulationState::outer_velocities.
-constexpr std::array<const char*, 2> outer_names{"/outer_velocity", "/previous_outer_velocity"};
+constexpr const char* mean_flow_name = "/mean_flow";
+/// Of SimulationState::outer_velocities, and the length of the step from the third to the second.
+constexpr std::array<const char*, 3> outer_names{"/outer_velocity", "/previous_outer_velocity",
+                                                 "/earlier_outer_velocity"};
+constexpr const char* earlier_step_name = "/earlier_step";
 
 coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, const std::filesystem::path& path) {
   const fluid::Grid grid = coupling::grid_of(scene);
@@ -266,8 +269,11 @@ coupling::SimulationState read_state(const Hdf5File& file, const Scene& scene, c
   read_velocity(file, "/previous_velocity", state.previous_velocity, path);
   read_field(file, "/pressure", state.pressure, path);
   if (file.exists("/step_control")) state.step_control = file.read("/step_control");
-  if (file.exists(outer_names[0]))  // of sharp membranes between two viscosities, with inertia
-    for (const char* name : outer_names) read_velocity(file, name, state.outer_velocities.emplace_back(grid), path);
+  if (file.exists(mean_flow_name))  // of sharp membranes between two viscosities, without walls and inertia
+    read_into(file, mean_flow_name, state.mean_flow.data(), state.mean_flow.size(), path);
+  for (const char* name : outer_names)  // of sharp membranes between two viscosities, with inertia
+    if (file.exists(name)) read_velocity(file, name, state.outer_velocities.emplace_back(grid), path);
+  if (file.exists(earlier_step_name)) read_into(file, earlier_step_name, &state.earlier_step, 1, path);
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     const Eigen::Index latitudes = scene.latitudes(i);
     state.vesicles.push_back(read_vesicle(file, fmt::format("/vesicle_{}", i), 2 * latitudes * latitudes, path));
@@ -296,8 +302,11 @@ void write_checkpoint(const std::filesystem::path& path, const SceneSimulation& 
     write_velocity(file, "/velocity", state.velocity);
     write_velocity(file, "/previous_velocity", state.previous_velocity);
     write_field(file, "/pressure", state.pressure);
+    if (state.mean_flow != fluid::Vector3{})
+      write_array(file, mean_flow_name, state.mean_flow.data(), static_cast<Eigen::Index>(state.mean_flow.size()));
     for (std::size_t i = 0; i < state.outer_velocities.size(); ++i)
-      write_velocity(file, outer_names[i], state.outer_velocities[i]);
+      write_velocity(file, outer_names.at(i), state.outer_velocities[i]);
+    if (state.earlier_step != 0.0) write_array(file, earlier_step_name, &state.earlier_step, 1);
     if (!state.step_control.empty())
       write_array(file, "/step_control", state.step_control.data(),
                   static_cast<Eigen::Index>(state.step_control.size()));

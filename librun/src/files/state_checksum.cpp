@@ -53,9 +53,10 @@ std::int64_t checksum_of(const coupling::SimulationState& state) {
     // Other states are summed as they were before there was such a velocity.
     if (vesicle.interface_velocity.size() > 0) add_array(sum, vesicle.interface_velocity);
     if (vesicle.previous_interface_velocity.size() > 0) add_array(sum, vesicle.previous_interface_velocity);
-    for (const auto* row : {&vesicle.inner_velocity, &vesicle.previous_inner_velocity})
-      if (!row->empty()) add_array(sum, *row);
+    for (const std::vector<double>& row : vesicle.inner_velocities) add_array(sum, row);
   }
+  for (const double other : {state.mean_flow[0], state.mean_flow[1], state.mean_flow[2], state.earlier_step})
+    if (other != 0.0) sum.add(other);
   if (state.start) {
     sum.add(state.start->run);
     sum.add(state.start->time);

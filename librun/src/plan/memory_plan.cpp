@@ -67,11 +67,16 @@ MemoryPlan plan_memory(const Scene& scene) {
     plan.fluid += (scene.has_scaled_velocity() ? 4.0 : 1.0) * field;
     plan.membranes += sharp_bytes(scene);
     if (scene.corrects_fluid(scene.time.step) || scene.has_phase_inertia())
-      plan.fluid += 3.0 * field;      // the force that a step is solved again with another than
-    if (scene.has_phase_inertia()) {  // three times of both phases, with their convection, and a force
-      const double at_each_time = scene.fluid.inertia == fluid::Inertia::full ? 6.0 : 3.0;
-      plan.fluid += (3.0 * at_each_time + 3.0) * field;
-      plan.membranes += 3.0 * at_each_time * inner_phase_bytes(scene);
+      plan.fluid += 3.0 * field;  // the force that a step is solved again with another than
+    if (scene.has_phase_inertia()) {
+      // A force, the velocity that is expected and what continues it; where the solver has another Reynolds number, convection and, if two times
+      // are not enough, velocities. In boxes four times of both phases and of what the grid has, with their convection.
+      const bool convects = scene.fluid.inertia == fluid::Inertia::full;
+      const coupling::PhaseSplitting splitting = scene.phase_splitting();
+      const bool solves_another = splitting.solved_reynolds_number != scene.fluid.reynolds_number;
+      plan.fluid += (9.0 + (solves_another && convects ? 9.0 : 0.0) +
+                     (solves_another && splitting.curvature > 0.0 ? 9.0 : 0.0)) * field;
+      plan.membranes += 12.0 * (convects ? 6.0 : 3.0) * body_box_bytes(scene);
     }
   }
   // To try steps again: a velocity, a pressure and, where there is a field of it, the viscosity.
@@ -79,7 +84,7 @@ MemoryPlan plan_memory(const Scene& scene) {
   if (scene.time.adaptive || scene.time.markers == coupling::MarkerMotion::implicit) plan.steps = remembered;
   // Two velocities and a pressure, of two phases more velocities; four single precision numbers per cell.
   if (scene.output.checkpoint_every > 0.0)
-    plan.output = scene.has_phase_inertia() ? 13.0 * field + 6.0 * inner_phase_bytes(scene) : 7.0 * field;
+    plan.output = scene.has_phase_inertia() ? 16.0 * field + 12.0 * body_box_bytes(scene) : 7.0 * field;
   if (scene.output.fluid_every > 0.0) plan.output = std::max(plan.output, 2.0 * field);
   if (plan.steps == 0.0 && scene.follows_shape())
     plan.steps = std::max(0.0, remembered - plan.output);  // of the start only

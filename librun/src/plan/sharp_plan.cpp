@@ -39,10 +39,10 @@ double sharp_bytes(const Scene& scene) {
   return bytes;
 }
 
-// Along each axis a vesicle is 2.5 radii long, more or less, and its band reaches 3.5 spacings further; what bands and boxes have to
-// spare makes up for the rest.
-double inner_phase_bytes(const Scene& scene) {
-  constexpr double radii = 2.5, more_points = 15.0;
+// Along each axis a vesicle is 2.5 radii long, more or less, and its band reaches 3.5 spacings further; boxes have room to grow and ghosts, and
+// what bands and boxes have to spare makes up for the rest.
+double body_box_bytes(const Scene& scene) {
+  constexpr double radii = 2.5, more_points = 18.0;
   double bytes = 0.0;
   for (std::size_t i = 0; i < scene.vesicles.size(); ++i) {
     if (scene.viscosity_ratio(i) == 1.0) continue;

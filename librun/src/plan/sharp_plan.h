@@ -19,7 +19,7 @@ std::string describe_interface_passes(const Scene& scene);
 
 /// Bytes of the points of the grid near the membranes, and of the meshes that they are looked up on.
 double sharp_bytes(const Scene& scene);
-/// One number at each point of the boxes that the insides of vesicles of another viscosity are kept in.
-double inner_phase_bytes(const Scene& scene);
+/// One number at each point of the boxes that the phases at vesicles of another viscosity are kept in.
+double body_box_bytes(const Scene& scene);
 
 }  // namespace vesiflow::run

@@ -23,6 +23,7 @@ constexpr double stiff = 9000.0;  // strains below 1e-3 where stresses are of or
 constexpr double largest_slow_reynolds_number = coupling::validity::largest_reynolds_number_with_thickness_correction;
 constexpr double largest_reynolds_number = coupling::validity::largest_reynolds_number;
 constexpr double least_ratio_with_inertia = coupling::validity::thin_sharp_ratio;
+constexpr double widest_contrast_with_inertia = coupling::validity::widest_contrast_of_second_order;
 constexpr double smallest_capillary_number = coupling::validity::preset_least_capillary_number;
 constexpr double smallest_reduced_volume = coupling::validity::preset_least_reduced_volume - 1e-12;
 
@@ -37,7 +38,8 @@ bool wants_sharp(const Scene& scene) {
 
 Settings settings_of(const Scene& scene) {
   const bool is_fine = scene.method.accuracy == Accuracy::per_mille;
-  if (wants_sharp(scene)) return is_fine ? Settings{16.0, 4.0, 96.0} : Settings{8.0, 5.0, 96.0};
+  // Where the fluid has inertia, the step's error on the way from the start is what is left.
+  if (wants_sharp(scene)) return is_fine ? Settings{16.0, 4.0, is_slow(scene) ? 96.0 : 192.0} : Settings{8.0, 5.0, 96.0};
   return is_fine ? Settings{12.0, 5.0, 192.0} : Settings{8.0, 5.0, 96.0};
 }
 
@@ -120,11 +122,14 @@ void check_accuracy(const Scene& scene) {
         fmt::format("{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}, or "
                     "fluid.inertia = \"none\"; leave method.accuracy out, and compare two grids",
                     key, scene.fluid.reynolds_number, largest_reynolds_number / (radius * radius)));
-  if (scene.method.accuracy == Accuracy::per_mille && !is_slow(scene))
-    throw ParameterError(fmt::format(
-        "{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}: above, the error of "
-        "the step is larger (docs/performance.md#presets); take \"1e-2\", or compare two grids and two steps",
-        key, scene.fluid.reynolds_number, largest_slow_reynolds_number / (radius * radius)));
+  if (const double contrast = scene.viscosity_range().contrast();
+      !is_slow(scene) && contrast > widest_contrast_with_inertia)
+    throw ParameterError(
+        fmt::format("{}: no settings are known for viscosities that differ by a factor of {:g} at fluid.reynolds_number "
+                    "= {:g}; it must be <= {:g} above {:g}, where the step is of second order "
+                    "(docs/performance.md#presets); leave method.accuracy out, and compare two grids and two steps",
+                    key, contrast, scene.fluid.reynolds_number, widest_contrast_with_inertia,
+                    largest_slow_reynolds_number / (radius * radius)));
   const double ratio = scene.viscosity_range().least;
   if (re > 0.0 && ratio < least_ratio_with_inertia)
     throw ParameterError(

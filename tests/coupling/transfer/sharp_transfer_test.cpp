@@ -87,6 +87,36 @@ double difference(const OnGrid& a, const OnGrid& b) {
                    difference(a.density.z, b.density.z), difference(a.source, b.source)});
 }
 
+// The jump a + A x is a flow on both sides, with the stress A + A^T. What is solved for is smooth less that inside: its sum over points counts
+// these as a whole, where the integral knows where the membrane is.
+TEST(SharpTransfer, KnowsWhatASumOverPointsLacksOfTheIntegral) {
+  const fluid::Grid grid = box(true);
+  const Vector a(1.0, -2.0, 0.5);
+  const Eigen::Matrix3d gradient{{0.3, 0.5, -0.2}, {-0.4, 0.2, 0.6}, {0.1, -0.7, -0.5}};
+  const Eigen::Matrix3d stress = gradient + gradient.transpose();
+  double counted = 0.0, known = 0.0;
+  for (int place = 0; place < 8; ++place) {
+    const Vector centre = middle + (0.2 / 8 * place) * Vector(1.0, 0.6, -0.7);
+    const Ellipsoid shape = some_body(centre);
+    SharpBody body(grid, mesh, shape.markers(mesh));
+    VectorField jump = (body.surface.positions().matrix() * gradient.transpose()).array();
+    jump.rowwise() += a.transpose().array();
+    body.sharp.set_force((-body.surface.normal().matrix() * stress.transpose()).array(), &jump);
+
+    const double volume = 4.0 / 3.0 * std::numbers::pi * 0.8 * 1.0 * 1.25;
+    Vector lacking = -volume * (a + gradient * centre);
+    fluid::FaceVector points(grid);
+    test::for_each_point(points, [&](double, const fluid::Vector3& at, int component) {
+      const Vector x(at[0], at[1], at[2]);
+      if (shape.closest(x).distance < 0.0) lacking[component] += grid.cell_volume() * (a + gradient * x)[component];
+    });
+    counted += lacking.squaredNorm();
+    known += (body.sharp.integral_beyond_sum() - lacking).squaredNorm();
+  }
+  EXPECT_GT(std::sqrt(counted / 8), 0.01);
+  EXPECT_LT(std::sqrt(known / counted), 0.05);
+}
+
 TEST(SharpTransfer, ForceAndTorqueAreThoseOfTheMembrane) {
   for (const bool periodic : {false, true})
     for (const bool has_jump : {false, true}) {
