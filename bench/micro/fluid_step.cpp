@@ -32,11 +32,16 @@ struct Case {
   const char* name;
   double ratio;
   ViscousTreatment treatment;
+  Precision precision = Precision::double_;
 };
-const std::vector<Case> all_cases{{"ratio 1", 1.0, ViscousTreatment::extrapolated},
-                                  {"ratio 20, explicit", 20.0, ViscousTreatment::explicit_},
-                                  {"ratio 20, extrapolated", 20.0, ViscousTreatment::extrapolated},
-                                  {"ratio 20, implicit", 20.0, ViscousTreatment::implicit}};
+const std::vector<Case> all_cases{
+    {"ratio 1", 1.0, ViscousTreatment::extrapolated},
+    {"ratio 1, mixed", 1.0, ViscousTreatment::extrapolated, Precision::mixed},
+    {"ratio 20, explicit", 20.0, ViscousTreatment::explicit_},
+    {"ratio 20, extrapolated", 20.0, ViscousTreatment::extrapolated},
+    {"ratio 20, extrapolated, mixed", 20.0, ViscousTreatment::extrapolated, Precision::mixed},
+    {"ratio 20, implicit", 20.0, ViscousTreatment::implicit},
+    {"ratio 20, implicit, mixed", 20.0, ViscousTreatment::implicit, Precision::mixed}};
 
 struct Phase {
   const char* name;
@@ -92,6 +97,7 @@ class Flow {
     FluidParameters result;
     result.reynolds_number = 1e-3;
     result.viscous_treatment = c.treatment;
+    result.precision = c.precision;
     if (c.ratio != 1.0) result.viscosity = mu_;
     return result;
   }
@@ -120,7 +126,7 @@ void print(const Case& c, int cells, const Row& row, long allocations, const std
       json ? "%s\n {\"cells\": %d, \"case\": \"%s\", \"step_ms\": %.3f, \"convection_ms\": %.3f, \"viscous_ms\": %.3f, "
              "\"momentum_ms\": %.3f, \"projection_ms\": %.3f, \"transforms_ms\": %.3f, \"ratio\": %.3f, "
              "\"ratio_wall\": %.3f, \"iterations\": %d, \"allocations\": %ld}"
-           : "%s%5d  %-23s %9.2f %10.2f %9.2f %9.2f %10.2f %10.2f %7.3f %7.3f %10d %11ld\n";
+           : "%s%5d  %-30s %9.2f %10.2f %9.2f %9.2f %10.2f %10.2f %7.3f %7.3f %10d %11ld\n";
   std::printf(format, json && !first ? "," : "", cells, c.name, milliseconds, phase[0], phase[1], phase[2], phase[3],
               median(transforms, &Sample::cpu), ratio, wall_ratio, row.iterations, allocations);
   std::fflush(stdout);
@@ -186,7 +192,7 @@ int main(int argc, char** argv) {
         "of\n"
         "transforms; medians of the ratios step / transforms by CPU and by wall time; solver iterations; allocations "
         "in two steps.\n"
-        "%5s  %-23s %9s %10s %9s %9s %10s %10s %7s %7s %10s %11s\n",
+        "%5s  %-30s %9s %10s %9s %9s %10s %10s %7s %7s %10s %11s\n",
         "cells", "", "step", "convection", "viscous", "momentum", "projection", "transforms", "ratio", "wall",
         "iterations", "allocations");
   }

@@ -159,7 +159,8 @@ class Stokes {
 
 NavierStokes navier_stokes(const Grid& grid, double reynolds_number, const py::object& viscosity,
                            const std::string& inertia, const std::string& treatment, const std::string& velocity_solver,
-                           const std::string& pressure_solver, const py::object& boundary, bool unsteady) {
+                           const std::string& pressure_solver, const std::string& precision, const py::object& boundary,
+                           bool unsteady) {
   FluidParameters parameters;
   parameters.reynolds_number = reynolds_number;
   parameters.viscosity = viscosity_of(viscosity, grid);
@@ -168,6 +169,7 @@ NavierStokes navier_stokes(const Grid& grid, double reynolds_number, const py::o
       treatment, std::array<const char*, 3>{"explicit", "extrapolated", "implicit"}, "viscous_treatment");
   parameters.velocity_solver = options_of(velocity_solver);
   parameters.pressure_solver = options_of(pressure_solver);
+  parameters.precision = chosen<Precision>(precision, std::array<const char*, 2>{"double", "mixed"}, "precision");
   return {grid, parameters, boundary_of(boundary), unsteady ? WallMotion::unsteady : WallMotion::steady};
 }
 

@@ -206,7 +206,8 @@ class NavierStokes:
     - `boundary`: u(x, t) on the walls, sampled once unless `unsteady`; none where all axes are periodic;
     - `inertia`: "full", "unsteady" (without convection) or "none" (Stokes flow in each step);
     - `viscous_treatment`: "explicit", "extrapolated" or "implicit", where mu is an array;
-    - `velocity_solver`, `pressure_solver`: "auto", "fft", "cholmod", "pcg".
+    - `velocity_solver`, `pressure_solver`: "auto", "fft", "cholmod", "pcg";
+    - `precision`: "double", or "mixed" for a velocity solve in single precision, of what changes.
 
     `velocity` and `pressure` are views of the solver's arrays, read-only: they are of this time until the next step, after which they hold
     something else. Copy what you want to keep.
@@ -214,10 +215,11 @@ class NavierStokes:
 
     def __init__(self, grid: Grid, *, reynolds_number: float = 1.0, viscosity: Union[float, ArrayLike] = 1.0,
                  boundary: Optional[VelocityFunction] = None, unsteady: bool = False, inertia: str = "full",
-                 viscous_treatment: str = "extrapolated", velocity_solver: str = "auto", pressure_solver: str = "fft") -> None:
+                 viscous_treatment: str = "extrapolated", velocity_solver: str = "auto", pressure_solver: str = "fft",
+                 precision: str = "double") -> None:
         self.grid = grid
         self._core = _fluid.NavierStokes(grid._core, reynolds_number, _coefficient(viscosity), inertia, viscous_treatment, velocity_solver,
-                                         pressure_solver, boundary, unsteady)
+                                         pressure_solver, precision, boundary, unsteady)
 
     def set_velocity(self, velocity: Union[VelocityFunction, Sequence[ArrayLike]]) -> None:
         """Starts anew at time zero from a function u(x, t), or three arrays at the faces (`Grid.velocity`). Of what is not free of divergence

@@ -95,6 +95,7 @@ struct VESIFLOW_COUPLING_EXPORT SimulationParameters {
     fluid::Inertia inertia = fluid::Inertia::full;                     ///< terms of inertia that are kept
     fluid::SolverKind velocity_solver = fluid::SolverKind::automatic;  ///< for the velocity
     fluid::SolverKind pressure_solver = fluid::SolverKind::automatic;  ///< for the pressure
+    fluid::Precision precision = fluid::Precision::double_;            ///< of the velocity solve
   } fluid;                                                             ///< the fluid and its solvers
 
   /// How markers and grid are coupled.

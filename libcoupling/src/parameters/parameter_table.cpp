@@ -95,6 +95,7 @@ void visit(SimulationParameters::Fluid& fluid, ParameterVisitor& v) {
   visit_choice(v, "fluid.inertia", fluid.inertia, {"full", "unsteady", "none"});
   visit_choice(v, "fluid.velocity_solver", fluid.velocity_solver, fluid::solver_names);
   visit_choice(v, "fluid.pressure_solver", fluid.pressure_solver, fluid::solver_names);
+  visit_choice(v, "fluid.precision", fluid.precision, fluid::precision_names);
 }
 
 void visit(SimulationParameters::Coupling& coupling, ParameterVisitor& v) {

@@ -126,6 +126,7 @@ fluid::FluidParameters fluid_parameters_of(const SimulationParameters& parameter
   of_fluid.inertia = parameters.fluid.inertia;
   of_fluid.velocity_solver = fluid::default_options(parameters.fluid.velocity_solver);
   of_fluid.pressure_solver = fluid::default_options(parameters.fluid.pressure_solver);
+  of_fluid.precision = parameters.fluid.precision;
   return of_fluid;
 }
 

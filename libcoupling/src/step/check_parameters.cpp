@@ -136,6 +136,10 @@ void check_physics(const SimulationParameters& parameters) {
         "fluid.velocity_solver = \"fft\": cannot solve for three components coupled by a viscosity that "
         "varies, which fluid.viscous_treatment = \"implicit\" asks for; take auto, pcg or cholmod, or another "
         "treatment"));
+  if (parameters.fluid.precision == fluid::Precision::mixed && parameters.fluid.inertia == fluid::Inertia::none)
+    throw ParameterError(
+        "fluid.precision = \"mixed\": is of the velocity solve in steps with inertia, and fluid.inertia = \"none\"; take "
+        "fluid.precision = \"double\", or fluid.inertia = \"full\" or \"unsteady\"");
   try {
     fluid::check_solver_limits(fluid::EllipticProblem::pressure(grid_of(parameters)),
                                fluid::default_options(parameters.fluid.pressure_solver));

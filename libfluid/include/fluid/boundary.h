@@ -66,6 +66,8 @@ class VESIFLOW_FLUID_EXPORT WallVelocity {
   /// Adds mu times the part of the 7-point Laplacian of each component that comes from the walls to the
   /// unknowns of rhs: what the homogeneous operator of EllipticProblem leaves out.
   void add_diffusion(double mu, FaceVector& rhs) const;
+  /// The same for the change of the data by the last evaluate(): nothing if they are steady.
+  void add_diffusion_of_change(double mu, FaceVector& rhs) const;
 
  private:
   // Values of one velocity component on one wall, at the positions of that component's points projected on
@@ -85,6 +87,8 @@ class VESIFLOW_FLUID_EXPORT WallVelocity {
   void compare_periods(const Plane& plane, Deviations& found) const;
   void refuse(const Deviations& found) const;
   void balance_flux();
+  template <class Value>
+  void add_wall_diffusion(const Plane& wall, double mu, FaceVector& rhs, const Value& value) const;
   void fill_wall_ghosts(const Plane& wall, const View& field) const;
 
   Grid grid_;

@@ -58,6 +58,11 @@ class VESIFLOW_FLUID_EXPORT EllipticSolver {
   /// not, or overflows.
   SolveReport solve(ConstBlocks rhs, Blocks x);
 
+  /// The same for x = base + the solution, which saves a pass over memory where base is what the solution corrects.
+  /// Iterative solvers start from zero. x may be the arrays of rhs, but not those of base.
+  /// \throws std::invalid_argument and std::runtime_error as solve().
+  SolveReport add_solution(ConstBlocks rhs, ConstBlocks base, Blocks x);
+
   const EllipticProblem& problem() const { return problem_; }  ///< the problem of the last update()
 
   /// Name of the backend: "fft", "pcg+cholmod", ...
@@ -76,8 +81,10 @@ class VESIFLOW_FLUID_EXPORT EllipticSolver {
   bool may_reuse() const { return may_reuse_; }
 
  private:
+  void check_ready(ConstBlocks rhs, ConstBlocks x) const;
   virtual void do_update(const EllipticProblem& problem) = 0;
   virtual SolveReport do_solve(ConstBlocks rhs, Blocks x) = 0;
+  virtual SolveReport do_add_solution(ConstBlocks rhs, ConstBlocks base, Blocks x);
 
   EllipticProblem problem_;
   Viscosity::Range viscosity_range_{};
@@ -95,7 +102,14 @@ struct FftOptions {
     pairs_of_lines,  ///< complex FFTs of pairs of real lines, plane by plane in cache
     fftw_r2r  ///< FFTW's three-dimensional real-to-real plan as it is, serial: the reference to check and time against
   };
+  /// In which numbers they and the sweeps along z are computed. Right-hand side and solution are double in any case.
+  enum class Arithmetic {
+    double_,  ///< as right-hand side and solution
+    single  ///< half the traffic of memory and twice the numbers at a time, for an error of about 1e-6 of the solution:
+            ///< for increments, residuals and preconditioners; with `pairs_of_lines` only
+  };
   Transforms transforms = Transforms::pairs_of_lines;  ///< which transforms are taken
+  Arithmetic arithmetic = Arithmetic::double_;         ///< in which numbers
 };
 
 /// When the factor of a matrix that has changed is computed anew: at an update() if it is at least the every-th since

@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "fluid/boundary.h"
 #include "fluid/elliptic_solver.h"
@@ -43,6 +45,17 @@ enum class ViscousTreatment {
   implicit
 };
 
+/// In which numbers the velocity of a step is solved for.
+enum class Precision {
+  double_,  ///< double precision
+  /// Single precision within fast transforms, for what changes: the solve is for u* - u^k, from a residual in double
+  /// precision. All else stays double, the pressure too: its second derivatives would turn round-off of single
+  /// precision into divergence, and it is a quarter of the solves only. Errors: docs/performance.md
+  mixed
+};
+/// The names, by Precision.
+inline constexpr std::array<std::string_view, 2> precision_names{"double", "mixed"};
+
 /// The fluid, and how its equations are solved.
 struct FluidParameters {
   double reynolds_number = 1.0;  ///< Re
@@ -54,6 +67,7 @@ struct FluidParameters {
   Inertia inertia = Inertia::full;                                      ///< terms that are kept
   SolverOptions pressure_solver = FftOptions{};                         ///< for the pressure correction
   SolverOptions velocity_solver = AutoOptions{};                        ///< for the velocity
+  Precision precision = Precision::double_;  ///< of the velocity solve; mixed is of steps with inertia
   StokesOptions stokes = {};  ///< of inertia = none, which uses neither of the two solvers above in its steps
 };
 

@@ -14,21 +14,26 @@ namespace vesiflow::fluid {
 constexpr std::align_val_t cache_line{64};
 
 struct AlignedRelease {
-  void operator()(double* memory) const { ::operator delete(memory, cache_line); }
+  void operator()(void* memory) const { ::operator delete(memory, cache_line); }
 };
-using AlignedArray = std::unique_ptr<double[], AlignedRelease>;
+template <class Scalar>
+using AlignedArrayOf = std::unique_ptr<Scalar[], AlignedRelease>;
+using AlignedArray = AlignedArrayOf<double>;
 
 // count zeros.
-inline AlignedArray allocate_aligned(std::size_t count) {
-  double* memory = static_cast<double*>(::operator new(sizeof(double) * count, cache_line));
-  std::fill_n(memory, count, 0.0);
-  return AlignedArray(memory);
+template <class Scalar = double>
+AlignedArrayOf<Scalar> allocate_aligned(std::size_t count) {
+  Scalar* memory = static_cast<Scalar*>(::operator new(sizeof(Scalar) * count, cache_line));
+  std::fill_n(memory, count, Scalar(0));
+  return AlignedArrayOf<Scalar>(memory);
 }
 
 // Stride for rows of that many numbers: whole cache lines, and an odd number of them, as rows a power of two apart
 // would compete for the same cache sets.
-inline std::ptrdiff_t padded(int extent) {
-  return 8 * ((extent + 7) / 8 | 1);
+template <class Scalar = double>
+std::ptrdiff_t padded(int extent) {
+  constexpr int line = static_cast<int>(64 / sizeof(Scalar));
+  return line * ((extent + line - 1) / line | 1);
 }
 
 }  // namespace vesiflow::fluid

@@ -284,29 +284,45 @@ void WallVelocity::fill_wall_ghosts(const Plane& wall, const View& field) const 
   }
 }
 
+// Of one wall, with value(a, b) there.
+template <class Value>
+void WallVelocity::add_wall_diffusion(const Plane& wall, double mu, FaceVector& rhs, const Value& value) const {
+  const View field = rhs.points()[wall.component];
+  const int axis = wall.axis;
+  const auto [axis_a, axis_b] = wall_axes[axis];
+  const bool on_wall = wall.component == axis;
+  const double h = grid_.spacing(axis);
+  const double factor = mu * (on_wall ? 1.0 : 2.0) / (h * h);
+  const int inset = on_wall ? 1 : 0;
+  double* first = field.data + (wall.side == 0 ? inset : field.extent[axis] - 1 - inset) * stride(field, axis);
+  // Along the wall, the points of the component that lie on other walls or mirrors are not unknowns.
+  const Centring centring = face_centrings[wall.component];
+  const auto unknowns = unknown_extent(grid_, centring);
+  const int first_a = first_unknown(grid_, centring, axis_a);
+  const int first_b = first_unknown(grid_, centring, axis_b);
+  for (int b = first_b; b < first_b + unknowns[axis_b]; ++b) {
+    for (int a = first_a; a < first_a + unknowns[axis_a]; ++a) {
+      first[a * stride(field, axis_a) + b * stride(field, axis_b)] += factor * value(a, b);
+    }
+  }
+}
+
 void WallVelocity::add_diffusion(double mu, FaceVector& rhs) const {
   check_grid("boundary", "rhs", rhs, grid_);
-  const auto fields = rhs.points();
   for (const Plane& wall : planes_) {
     if (!grid_.has_wall(wall.axis, wall.side)) continue;
-    const View& field = fields[wall.component];
-    const int axis = wall.axis;
-    const auto [axis_a, axis_b] = wall_axes[axis];
-    const bool on_wall = wall.component == axis;
-    const double h = grid_.spacing(axis);
-    const double factor = mu * (on_wall ? 1.0 : 2.0) / (h * h);
-    const int inset = on_wall ? 1 : 0;
-    double* first = field.data + (wall.side == 0 ? inset : field.extent[axis] - 1 - inset) * stride(field, axis);
-    // Along the wall, the points of the component that lie on other walls or mirrors are not unknowns.
-    const Centring centring = face_centrings[wall.component];
-    const auto unknowns = unknown_extent(grid_, centring);
-    const int first_a = first_unknown(grid_, centring, axis_a);
-    const int first_b = first_unknown(grid_, centring, axis_b);
-    for (int b = first_b; b < first_b + unknowns[axis_b]; ++b) {
-      for (int a = first_a; a < first_a + unknowns[axis_a]; ++a) {
-        first[a * stride(field, axis_a) + b * stride(field, axis_b)] += factor * wall.at(a, b);
-      }
-    }
+    add_wall_diffusion(wall, mu, rhs, [&](int a, int b) { return wall.at(a, b); });
+  }
+}
+
+void WallVelocity::add_diffusion_of_change(double mu, FaceVector& rhs) const {
+  check_grid("boundary", "rhs", rhs, grid_);
+  if (steady()) return;
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    const Plane& now = planes_[p];
+    const Plane& before = spare_planes_[p];
+    if (!grid_.has_wall(now.axis, now.side)) continue;
+    add_wall_diffusion(now, mu, rhs, [&](int a, int b) { return now.at(a, b) - before.at(a, b); });
   }
 }
 

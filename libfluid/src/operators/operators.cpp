@@ -7,26 +7,10 @@
 
 #include "grid/check_grid.h"
 #include "grid/planes.h"
+#include "operators/cell_divergence.h"
 #include "operators/convection_row.h"
 
 namespace vesiflow::fluid {
-namespace {
-
-// div u in one cell, from pointers to the velocity at its lower faces.
-struct CellDivergence {
-  explicit CellDivergence(const FaceVector& u)
-      : y_stride(u.y.stride(1)),
-        z_stride(u.z.stride(2)),
-        per_h{1.0 / u.grid().spacing(0), 1.0 / u.grid().spacing(1), 1.0 / u.grid().spacing(2)} {}
-  double operator()(const double* x, const double* y, const double* z) const {
-    return (x[1] - x[0]) * per_h[0] + (y[y_stride] - y[0]) * per_h[1] + (z[z_stride] - z[0]) * per_h[2];
-  }
-  std::ptrdiff_t y_stride, z_stride;
-  Vector3 per_h;
-};
-
-}  // namespace
-
 void gradient(const Field<Cell>& p, FaceVector& g) {
   check_grid("gradient", "g", g, p.grid());
   const auto fields = g.points();

@@ -122,7 +122,9 @@ std::size_t NavierStokes::estimate_memory(const Grid& grid, const FluidParameter
   for (const Centring centring : face_centrings) bytes += vectors * field_bytes(centring);
   bytes += estimate_solver_memory(EllipticProblem::pressure(grid), parameters.pressure_solver);
   if (stokes) return bytes + StokesSolver::estimate_memory(grid, parameters.viscosity);
-  return bytes + estimate_solver_memory(momentum_problem(grid, parameters, 1.0, 1.0), parameters.velocity_solver);
+  const EllipticProblem problem = momentum_problem(grid, parameters, 1.0, 1.0);
+  return bytes +
+         estimate_solver_memory(problem, in_precision(parameters.precision, problem, parameters.velocity_solver));
 }
 
 }  // namespace vesiflow::fluid

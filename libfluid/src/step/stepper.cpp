@@ -33,11 +33,20 @@ void check_memory(const Grid& grid, const FluidParameters& parameters) {
                                       " GB; use fewer cells"));
 }
 
+void check_precision(const FluidParameters& parameters) {
+  if (parameters.precision == Precision::double_) return;
+  if (parameters.inertia == Inertia::none) {
+    throw std::invalid_argument(
+        "fluid: the precision is mixed and there is no inertia; mixed is of steps with inertia, take double");
+  }
+}
+
 FluidParameters checked(const Grid& grid, const FluidParameters& parameters) {
   const double re = parameters.reynolds_number;
   if (!(std::isfinite(re) && re > 0.0)) {
     throw std::invalid_argument(message("fluid: reynolds_number is ", re, "; it must be finite and > 0"));
   }
+  check_precision(parameters);
   parameters.viscosity.checked_range();
   check_viscosity(grid, parameters.viscosity);
   check_memory(grid, parameters);
@@ -83,17 +92,21 @@ bool is_finite(ConstView field) {
   }));
 }
 
-void remove_mean(Field<Cell>& field) {
-  const View values = field.points();
+double mean(ConstView values) {
   const auto [nx, ny, nz] = values.extent;
   double sum = 0.0;
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) sum += values(i, j, k);
-  const double mean = sum / (static_cast<double>(nx) * ny * nz);
+  return sum / (static_cast<double>(nx) * ny * nz);
+}
+
+void subtract(double constant, Field<Cell>& field) {
+  const View values = field.points();
+  const auto [nx, ny, nz] = values.extent;
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) values(i, j, k) -= mean;
+      for (int i = 0; i < nx; ++i) values(i, j, k) -= constant;
 }
 
 bool is_finite(const FaceVector& u) {
@@ -101,6 +114,15 @@ bool is_finite(const FaceVector& u) {
 }
 
 }  // namespace
+
+SolverOptions in_precision(Precision precision, const EllipticProblem& problem, SolverOptions options) {
+  if (precision == Precision::double_) return options;
+  if (const auto* automatic = std::get_if<AutoOptions>(&options)) options = choose_solver(problem, *automatic).options;
+  auto* fft = std::get_if<FftOptions>(&options);
+  if (auto* pcg = std::get_if<PcgOptions>(&options)) fft = std::get_if<FftOptions>(&pcg->preconditioner);
+  if (fft != nullptr) fft->arithmetic = FftOptions::Arithmetic::single;
+  return options;
+}
 
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference) {
   const bool coupled =
@@ -206,7 +228,7 @@ void Stepper::start_from(const FaceVector& velocity_, const Field<Cell>& pressur
   copy(velocity_, velocity);
   start();
   copy(pressure_, pressure);
-  remove_mean(pressure);
+  subtract(mean(std::as_const(pressure).points()), pressure);
   extend_to_ghosts(pressure);
 }
 
@@ -288,8 +310,14 @@ void Stepper::check_given() {
   check_grid("fluid", "the force", force, grid);
   if (!source) return;
   check_grid("fluid", "the source of the divergence", *source, grid);
+  source_mean_ = mean(std::as_const(*source).points());
+}
+
+// What div u is to be, of a flow without inertia: in a step with inertia a pass for the pressure does it.
+void Stepper::give_divergence() {
+  if (!source) return;
   copy(*source, *given_divergence);
-  remove_mean(*given_divergence);
+  subtract(source_mean_, *given_divergence);
 }
 
 void Stepper::keep_force() {
@@ -302,9 +330,9 @@ void Stepper::solve_again() {
   if (clock.steps == 0 || (!stokes_ && !(driven_ && driven_->step == clock.steps)))
     throw std::logic_error("fluid: solve_again() is after a step and, with inertia, one after keep_force()");
   if (variable_viscosity() && !stokes_) throw std::logic_error("fluid: solve_again() with inertia is of one viscosity");
+  check_given();
   try {
     if (stokes_) {
-      check_given();
       solve_stokes(velocity);
     } else {
       add_change();
@@ -332,22 +360,17 @@ void Stepper::add_change() {
   {
     const PhaseTimer timer(timings.projection);
     driven_->at_rest.set_normal_faces(change);
-    divergence(change, chi_);
-    if (given_divergence) add(1.0, std::as_const(*given_divergence).unknowns(), chi_.unknowns());
+    if (source) {
+      change_of_divergence_beyond(change, *source, source_mean_, *given_divergence, chi_);
+    } else {
+      divergence(change, chi_);
+    }
+    solve_pressure();
+    add_corrected_increment(chi_, velocity_solver->problem().alpha, unit_, reference_viscosity_, force, change,
+                            velocity, pressure);
+    finish(velocity);
   }
-  check_given();
-  project(velocity_solver->problem().alpha, driven_->at_rest, change);
-  const PhaseTimer timer(timings.projection);
-  add(1.0, std::as_const(change).unknowns(), velocity.unknowns());
-  walls.set_normal_faces(velocity);
-  walls.fill_ghosts(velocity);
-  keep_for(clock.steps);
-}
-
-void Stepper::keep_for(long step) {
-  copy(std::as_const(force).unknowns(), driven_->force.unknowns());
   driven_->uniform_force = uniform_force;
-  driven_->step = step;
 }
 
 void Stepper::step(double dt) {
@@ -375,15 +398,28 @@ void Stepper::advance_with_inertia(double dt) {
   const double a = parameters.reynolds_number * coefficients.a0 / dt;
   update_velocity_solver(a);
   form_right_hand_side(coefficients, dt);
-  if (driven_) keep_for(clock.steps + 1);
+  if (driven_) {
+    driven_->uniform_force = uniform_force;
+    driven_->step = clock.steps + 1;
+  }
   if (variable_viscosity()) add_explicit_stress();
   solve_momentum();
   {
     const PhaseTimer timer(timings.projection);
     walls.set_normal_faces(previous);
-    divergence(previous, chi_);
+    if (source) {
+      divergence_beyond(previous, *source, source_mean_, *given_divergence, chi_);
+    } else {
+      divergence(previous, chi_);
+    }
+    solve_pressure();
+    if (implicit_stress()) {
+      correct_velocity_and_pressure(chi_, a, viscosity_, 1.0, previous, pressure);
+    } else {
+      correct_velocity_and_pressure(chi_, a, unit_, reference_viscosity_, previous, pressure);
+    }
+    finish(previous);
   }
-  project(a, walls, previous);
 }
 
 void Stepper::extrapolate_and_solve_stokes(double dt) {
@@ -398,6 +434,7 @@ void Stepper::extrapolate_and_solve_stokes(double dt) {
 
 void Stepper::solve_stokes(FaceVector& solution) {
   const PhaseTimer timer(timings.momentum);
+  give_divergence();
   report.stokes =
       stokes_->solve(force, walls, solution, pressure, uniform_force, given_divergence ? &*given_divergence : nullptr);
   if (!report.stokes.converged) {
@@ -420,7 +457,8 @@ void Stepper::update_velocity_solver(double a) {
   if (velocity_solver) {
     velocity_solver->update(problem);
   } else {
-    velocity_solver = make_elliptic_solver(problem, parameters.velocity_solver);
+    velocity_solver =
+        make_elliptic_solver(problem, in_precision(parameters.precision, problem, parameters.velocity_solver));
   }
 }
 
@@ -432,8 +470,15 @@ void Stepper::form_right_hand_side(const StepCoefficients& coefficients, double 
   }
   const PhaseTimer timer(timings.convection);
   explicit_terms(coefficients, parameters.reynolds_number, dt, velocity, pressure, force, uniform_force,
-                 convection_ ? &*convection_ : nullptr, previous);
-  if (!implicit_stress()) walls.add_diffusion(reference_viscosity_, previous);
+                 convection_ ? &*convection_ : nullptr, previous, driven_ ? &driven_->force : nullptr,
+                 solves_for_change()
+                     ? std::optional(MomentumOperator{velocity_solver->problem().alpha, reference_viscosity_})
+                     : std::nullopt);
+  if (solves_for_change()) {
+    walls.add_diffusion_of_change(reference_viscosity_, previous);
+  } else if (!implicit_stress()) {
+    walls.add_diffusion(reference_viscosity_, previous);
+  }
 }
 
 // What the operator of the velocity problem leaves out of div(mu (grad u + grad u^T)).
@@ -455,26 +500,26 @@ void Stepper::solve_momentum() {
   if (implicit_stress()) {
     report.momentum = velocity_solver->solve(std::as_const(previous).unknowns(), extrapolated_->unknowns());
     std::swap(previous, *extrapolated_);
+  } else if (solves_for_change()) {
+    report.momentum = velocity_solver->add_solution(std::as_const(previous).unknowns(),
+                                                    std::as_const(velocity).unknowns(), previous.unknowns());
   } else {
     report.momentum = velocity_solver->solve(std::as_const(previous).unknowns(), previous.unknowns());
   }
   check_converged("velocity", report.momentum);
 }
 
-// u has the divergence chi_, and shall have the given one.
-void Stepper::project(double a, const WallVelocity& at_walls, FaceVector& u) {
-  const PhaseTimer timer(timings.projection);
-  if (given_divergence) add(-1.0, std::as_const(*given_divergence).unknowns(), chi_.unknowns());
+// For the divergence that is too much.
+void Stepper::solve_pressure() {
   report.pressure = pressure_solver->solve(std::as_const(chi_).unknowns(), chi_.unknowns());
   check_converged("pressure", report.pressure);
-  if (implicit_stress()) {
-    correct_velocity_and_pressure(chi_, a, viscosity_, 1.0, u, pressure);
-  } else {
-    correct_velocity_and_pressure(chi_, a, unit_, reference_viscosity_, u, pressure);
-  }
+}
+
+// What lies outside of the unknowns, at the end of a step.
+void Stepper::finish(FaceVector& u) {
   extend_to_ghosts(pressure);
-  at_walls.set_normal_faces(u);
-  at_walls.fill_ghosts(u);
+  walls.set_normal_faces(u);
+  walls.fill_ghosts(u);
 }
 
 std::string Stepper::velocity_solver_name() const {

@@ -18,6 +18,9 @@ namespace vesiflow::fluid {
 // mu_reference is used where a field is explicit in part.
 EllipticProblem momentum_problem(const Grid& grid, const FluidParameters& parameters, double a, double mu_reference);
 
+// These options with single precision where they have fast transforms, if the precision is mixed.
+SolverOptions in_precision(Precision precision, const EllipticProblem& problem, SolverOptions options);
+
 class Stepper {
  public:
   Stepper(const Grid& grid, const FluidParameters& parameters, BoundaryVelocity boundary, WallMotion motion);
@@ -68,12 +71,14 @@ class Stepper {
   bool implicit_stress() const {
     return variable_viscosity() && parameters.viscous_treatment == ViscousTreatment::implicit;
   }
+  // Whether the velocity solve is for the change of the velocity.
+  bool solves_for_change() const { return parameters.precision == Precision::mixed && !implicit_stress(); }
   void advance_with_inertia(double dt);
   void extrapolate_and_solve_stokes(double dt);
   void solve_stokes(FaceVector& solution);
   void add_change();
-  void keep_for(long step);
   void check_given();
+  void give_divergence();
   void believe_divergence();
   void start();
   void make_divergence_free();
@@ -82,7 +87,8 @@ class Stepper {
   void form_right_hand_side(const StepCoefficients& coefficients, double dt);
   void add_explicit_stress();
   void solve_momentum();
-  void project(double a, const WallVelocity& at_walls, FaceVector& u);
+  void solve_pressure();
+  void finish(FaceVector& u);
 
   CoefficientView unit_, viscosity_;
   double reference_viscosity_ = 0.0;        // mu, or its largest value
@@ -90,7 +96,8 @@ class Stepper {
   std::optional<FaceVector> extrapolated_;  // velocity at the new time, if a field of viscosity needs it
   std::optional<FaceVector> lift_;          // zero but for walls and ghosts, if the stress is implicit
   std::optional<StokesSolver> stokes_;      // if there is no inertia
-  Field<Cell> chi_;
+  Field<Cell> chi_;                         // what is too much of the divergence, and the potential that takes it away
+  double source_mean_ = 0.0;
   std::optional<Remembered> remembered_;
   std::optional<Driven> driven_;
   bool is_remembered_ = false;  // whether remembered_ is of this run, and not of one before set_velocity() or restore()

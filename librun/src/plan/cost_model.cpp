@@ -46,9 +46,10 @@ constexpr double stages = 4.0;
 constexpr double fluids_of_implicit = 4.0;
 // Of solvers that iterate or factor, over fft: orders of magnitude.
 constexpr double iterations_of_stokes = 14.0, pcg_over_fft = 8.0;
-constexpr double coupled_over_fft = 22.0;  // times the square root of the ratio of viscosities
-constexpr double cholmod_unknown = 480.0;  // nanoseconds per solve
-constexpr double row = 1e-4, file = 6e-3;  // seconds, of a line of a table and of opening and closing HDF5
+constexpr double single_over_double = 0.7;  // bench/micro/fluid_step.cpp, 32^3 to 128^3
+constexpr double coupled_over_fft = 22.0;   // times the square root of the ratio of viscosities
+constexpr double cholmod_unknown = 480.0;   // nanoseconds per solve
+constexpr double row = 1e-4, file = 6e-3;   // seconds, of a line of a table and of opening and closing HDF5
 
 struct Size {
   double cells, log2_cells;
@@ -164,7 +165,9 @@ class CostModel {
       return;
     }
     const bool coupled = contrast && scene_.fluid.viscous_treatment == fluid::ViscousTreatment::implicit;
-    const auto [momentum, rough] = solve(scene_.fluid.velocity_solver, ns::momentum * transforms, 3.0);
+    const bool mixed = scene_.fluid.precision == fluid::Precision::mixed;
+    const auto [momentum, rough] =
+        solve(scene_.fluid.velocity_solver, (mixed ? single_over_double : 1.0) * ns::momentum * transforms, 3.0);
     on("fluid_momentum", coupled ? of_coupled(transforms) : momentum, "", coupled || rough);
     const auto [projection, is_rough] = solve(scene_.fluid.pressure_solver, ns::projection * transforms, 1.0);
     on("fluid_projection", projection, "", is_rough);

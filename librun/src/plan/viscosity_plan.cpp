@@ -52,13 +52,21 @@ double fluid_bytes(const Scene& scene, const fluid::Grid& grid, bool is_variable
          solver_bytes(coupled_problem(grid), coupling::fluid_parameters_of(scene).velocity_solver);
 }
 
-std::string describe_solve(const Scene& scene, const fluid::Grid& grid, double greatest, bool is_coupled) {
+// Without its precision.
+std::string describe_solver(const Scene& scene, const fluid::Grid& grid, double greatest, bool is_coupled) {
   const fluid::SolverKind choice = scene.fluid.velocity_solver;
   if (choice != fluid::SolverKind::automatic) return std::string(name(choice));
   if (is_coupled) return "cholmod or pcg with fft, whichever is estimated to be faster in the first step";
   const auto problem = fluid::EllipticProblem::velocity(grid, fluid::EllipticForm::laplacian, 1.0, greatest);
   const fluid::ChosenSolver chosen = fluid::choose_solver(problem, {});
   return fmt::format("{} ({})", fluid::name(chosen.options), chosen.reason);
+}
+
+std::string describe_solve(const Scene& scene, const fluid::Grid& grid, double greatest, bool is_coupled) {
+  const std::string solver = describe_solver(scene, grid, greatest, is_coupled);
+  if (scene.fluid.precision == fluid::Precision::double_) return solver + ", in double precision";
+  return solver + (is_coupled ? ", fast transforms that precondition it in single precision"
+                              : ", for the change of the velocity, fast transforms in single precision");
 }
 
 std::string describe_treatment(const Scene& scene, double least, double greatest) {

@@ -108,6 +108,7 @@ TEST(CostModel, SaysWhatIsRough) {
   EXPECT_FALSE(rough({}, "fluid_momentum"));
   EXPECT_TRUE(rough({"fluid.inertia=none"}, "fluid_momentum"));
   EXPECT_TRUE(rough({"fluid.velocity_solver=pcg"}, "fluid_momentum"));
+  EXPECT_FALSE(rough({"fluid.precision=mixed"}, "fluid_momentum"));
   EXPECT_TRUE(rough({"fluid.pressure_solver=cholmod"}, "fluid_projection"));
   EXPECT_TRUE(rough({"fluid.viscosity_ratio=5", "fluid.viscous_treatment=implicit"}, "fluid_momentum"));
   const std::string plan = describe_plan(coupling::small_scene({"fluid.inertia=none"}), 1);
@@ -183,6 +184,8 @@ TEST(CostModel, SlowerSettingsCostMore) {
   const auto of = [](const char* phase, const Overrides& overrides) {
     return cost(coupling::small_scene(overrides), phase);
   };
+  EXPECT_GT(of("fluid_momentum", {}), of("fluid_momentum", {"fluid.precision=mixed"}));
+  EXPECT_EQ(of("fluid_projection", {}), of("fluid_projection", {"fluid.precision=mixed"}));
   for (const char* solver : {"pcg", "cholmod"}) {
     EXPECT_GT(of("fluid_momentum", {std::string("fluid.velocity_solver=") + solver}), of("fluid_momentum", {}));
     EXPECT_GT(of("fluid_projection", {std::string("fluid.pressure_solver=") + solver}), of("fluid_projection", {}));

@@ -103,6 +103,8 @@ TEST_F(Restart, ContinuesBitForBitWithEveryTreatmentOfTheViscosity) {
     Overrides overrides = contrast;
     overrides.push_back(std::string("fluid.viscous_treatment=") + treatment);
     compare_restart(folder_ / treatment, overrides, 2);
+    overrides.emplace_back("fluid.precision=mixed");
+    compare_restart(folder_ / (std::string(treatment) + "_mixed"), overrides, 2);
   }
   Overrides without_inertia = contrast;
   without_inertia.emplace_back("fluid.inertia=none");

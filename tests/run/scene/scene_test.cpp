@@ -318,6 +318,20 @@ TEST(Scene, RefusesWhatNoSingleKeyIsToBlameFor) {
   expect_parts(message_of(sphere, {"coupling.method=delta", "fluid.viscosity_ratio=5",
                                    "fluid.viscous_treatment=implicit", "fluid.velocity_solver=fft"}),
                {"fluid.velocity_solver = \"fft\"", "fluid.viscous_treatment", "auto, pcg or cholmod"});
+  expect_parts(message_of(sphere, {"fluid.precision=mixed", "fluid.inertia=none"}),
+               {"fluid.precision = \"mixed\"", "fluid.inertia = \"none\"", "\"double\""});
+}
+
+TEST(Scene, HasAPrecisionThatThePlanSays) {
+  expect_parts(message_of("[fluid]\nprecision = \"single\"\n" + sphere),
+               {"test.toml:2", "fluid.precision", "single", "double, mixed"});
+  const auto plan = [](const Overrides& overrides) { return describe_plan(parse(sphere, overrides), 1); };
+  EXPECT_EQ(parse(sphere).fluid.precision, fluid::Precision::double_);
+  expect_parts(plan({}), {"in double precision"});
+  expect_parts(plan({"fluid.precision=mixed"}), {"for the change of the velocity", "in single precision"});
+  const Overrides implicit{"coupling.method=delta", "fluid.viscosity_ratio=5", "fluid.viscous_treatment=implicit",
+                           "fluid.precision=mixed"};
+  expect_parts(plan(implicit), {"precondition it in single precision"});
 }
 
 // Found by fuzz/scene.cpp, or while writing it: what overflowed, took for ever or ended as an "internal error".

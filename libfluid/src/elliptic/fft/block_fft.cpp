@@ -23,10 +23,10 @@ int parts_of(int n) {
 }
 
 fftw_plan make_plan(int n, int sign) {
-  const AlignedArray in = allocate_aligned(static_cast<std::size_t>(lanes) * n);
-  const AlignedArray out = allocate_aligned(static_cast<std::size_t>(lanes) * n);
-  return fftw_plan_many_dft(1, &n, lanes / 2, as_complex(in.get()), nullptr, lanes / 2, 1, as_complex(out.get()),
-                            nullptr, lanes / 2, 1, sign, FFTW_ESTIMATE);
+  const AlignedArray in = allocate_aligned(static_cast<std::size_t>(lanes<double>) * n);
+  const AlignedArray out = allocate_aligned(static_cast<std::size_t>(lanes<double>) * n);
+  return fftw_plan_many_dft(1, &n, lanes<double> / 2, as_complex(in.get()), nullptr, lanes<double> / 2, 1,
+                            as_complex(out.get()), nullptr, lanes<double> / 2, 1, sign, FFTW_ESTIMATE);
 }
 
 Vector4 multiply(const Vector4& z, double real, double imaginary) {
@@ -41,7 +41,7 @@ BlockFft::BlockFft(int n, Direction direction)
       sign_(direction == Direction::forward ? -1.0 : 1.0),
       rows_(n),
       plan_([&] { return make_plan(length_, direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD); }) {
-  for (int k = 0; k < n; ++k) rows_[k] = lanes * (k % parts_ * length_ + k / parts_);
+  for (int k = 0; k < n; ++k) rows_[k] = lanes<double> * (k % parts_ * length_ + k / parts_);
   for (int j = 0; j < length_; ++j) {
     for (int s = 1; s < parts_; ++s) {
       const double angle = 2.0 * std::numbers::pi * (j * s) / n;
@@ -55,34 +55,34 @@ void BlockFft::execute(double* block, double* result) const {
   if (parts_ == 2) split_in_two(block);
   if (parts_ == 3) split_in_three(block);
   for (int part = 0; part < parts_; ++part) {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(lanes) * part * length_;
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(lanes<double>) * part * length_;
     fftw_execute_dft(plan_.get(), as_complex(block + first), as_complex(result + first));
   }
 }
 
 void BlockFft::split_in_two(double* block) const {
-  double* high = block + static_cast<std::ptrdiff_t>(lanes) * length_;
+  double* high = block + static_cast<std::ptrdiff_t>(lanes<double>) * length_;
   for (int j = 0; j < length_; ++j) {
-    for (int at = lanes * j; at < lanes * (j + 1); at += 4) {
-      const Vector4 difference = load4(block + at) - load4(high + at);
-      store4(block + at, load4(block + at) + load4(high + at));
-      store4(high + at, multiply(difference, cosine_[j], sine_[j]));
+    for (int at = lanes<double> * j; at < lanes<double> * (j + 1); at += 4) {
+      const Vector4 difference = load_pack(block + at) - load_pack(high + at);
+      store_pack(block + at, load_pack(block + at) + load_pack(high + at));
+      store_pack(high + at, multiply(difference, cosine_[j], sine_[j]));
     }
   }
 }
 
 void BlockFft::split_in_three(double* block) const {
-  double* middle = block + static_cast<std::ptrdiff_t>(lanes) * length_;
-  double* high = middle + static_cast<std::ptrdiff_t>(lanes) * length_;
+  double* middle = block + static_cast<std::ptrdiff_t>(lanes<double>) * length_;
+  double* high = middle + static_cast<std::ptrdiff_t>(lanes<double>) * length_;
   const double root = sign_ * 0.5 * std::numbers::sqrt3;
   for (int j = 0; j < length_; ++j) {
-    for (int at = lanes * j; at < lanes * (j + 1); at += 4) {
-      const Vector4 sum = load4(middle + at) + load4(high + at);
-      const Vector4 difference = root * times_i(load4(middle + at) - load4(high + at));
-      const Vector4 rest = load4(block + at) - 0.5 * sum;
-      store4(block + at, load4(block + at) + sum);
-      store4(middle + at, multiply(rest + difference, cosine_[2 * j], sine_[2 * j]));
-      store4(high + at, multiply(rest - difference, cosine_[2 * j + 1], sine_[2 * j + 1]));
+    for (int at = lanes<double> * j; at < lanes<double> * (j + 1); at += 4) {
+      const Vector4 sum = load_pack(middle + at) + load_pack(high + at);
+      const Vector4 difference = root * times_i(load_pack(middle + at) - load_pack(high + at));
+      const Vector4 rest = load_pack(block + at) - 0.5 * sum;
+      store_pack(block + at, load_pack(block + at) + sum);
+      store_pack(middle + at, multiply(rest + difference, cosine_[2 * j], sine_[2 * j]));
+      store_pack(high + at, multiply(rest - difference, cosine_[2 * j + 1], sine_[2 * j + 1]));
     }
   }
 }

@@ -13,7 +13,7 @@ namespace vesiflow::fluid {
 
 enum class Direction { forward, backward };
 
-// Z_k = sum_j z_j exp(-+ 2 pi i j k / n) for the lanes / 2 complex lines of a block (lanes.h), by FFTW.
+// Z_k = sum_j z_j exp(-+ 2 pi i j k / n) for the lanes<double> / 2 complex lines of a block (lanes.h), by FFTW.
 //
 // Long lines are first split by a step of our own, into three because what FFTW estimates to be fast for such lengths
 // takes twice as long (192 and 384 points), or into two whose transform fits the first-level cache.

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace vesiflow::fluid {
 namespace {
@@ -26,13 +27,15 @@ double decay_rate(double ratio) {
   return std::log1p(0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio));
 }
 
-void prefetch(const double* row, int columns) {
-  for (int i = 0; i < columns; i += 8) __builtin_prefetch(row + i, 1, 2);
+template <class Scalar>
+void prefetch(const Scalar* row, int columns) {
+  for (int i = 0; i < columns; i += static_cast<int>(64 / sizeof(Scalar))) __builtin_prefetch(row + i, 1, 2);
 }
 
 // row[i] = b[i] + r[i] row[i] for the rows of b in the order they are given by first and step: the sum of r^m b, m
 // counted from the last.
-void accumulate(const double* b, std::ptrdiff_t step, int rows, int columns, const double* r, double* sum) {
+template <class Scalar>
+void accumulate(const Scalar* b, std::ptrdiff_t step, int rows, int columns, const Scalar* r, Scalar* sum) {
   for (int m = 0; m < rows; ++m, b += step) {
     if (m + 4 < rows) prefetch(b + 4 * step, columns);
     for (int i = 0; i < columns; ++i) sum[i] = b[i] + r[i] * sum[i];
@@ -42,7 +45,8 @@ void accumulate(const double* b, std::ptrdiff_t step, int rows, int columns, con
 }  // namespace
 
 // Rows of one number per column: r, c, the row below or above the sweep, and another sum.
-struct ColumnSolver::Rows {
+template <class Scalar>
+struct ColumnSolver<Scalar>::Rows {
   Rows(const Scratch& scratch, int columns_, std::ptrdiff_t row_stride)
       : columns(columns_),
         decay(scratch.values.get()),
@@ -51,47 +55,52 @@ struct ColumnSolver::Rows {
         far(neighbour + row_stride),
         slab(far + row_stride) {}
   int columns;
-  double *decay, *factor, *neighbour, *far, *slab;
+  Scalar *decay, *factor, *neighbour, *far, *slab;
 };
 
-ColumnSolver::ColumnSolver(int n, Basis ends, int columns)
-    : n_(n), ends_(ends), row_stride_(padded(columns)), half_period_(ends == Basis::sine_points ? n + 1 : n) {}
+template <class Scalar>
+ColumnSolver<Scalar>::ColumnSolver(int n, Basis ends, int columns)
+    : n_(n), ends_(ends), row_stride_(padded<Scalar>(columns)), half_period_(ends == Basis::sine_points ? n + 1 : n) {}
 
-ColumnSolver::Scratch::Scratch(const ColumnSolver& solver)
-    : values(allocate_aligned(static_cast<std::size_t>((solver.n_ + 4) * solver.row_stride_))),
+template <class Scalar>
+ColumnSolver<Scalar>::Scratch::Scratch(const ColumnSolver& solver)
+    : values(allocate_aligned<Scalar>(static_cast<std::size_t>((solver.n_ + 4) * solver.row_stride_))),
       column(solver.n_),
       factors(solver.n_) {}
 
-std::size_t ColumnSolver::scratch_size(int n, int columns) {
-  return static_cast<std::size_t>((n + 4) * padded(columns)) + 2 * n;
+template <class Scalar>
+std::size_t ColumnSolver<Scalar>::scratch_size(int n, int columns) {
+  return static_cast<std::size_t>((n + 4) * padded<Scalar>(columns)) + 2 * n;
 }
 
-bool ColumnSolver::is_direct(double shift, double s) const {
+template <class Scalar>
+bool ColumnSolver<Scalar>::is_direct(double shift, double s) const {
   if (ends_ == Basis::mixed_cells) return false;
   const bool zeros = ends_ == Basis::sine_points || ends_ == Basis::sine_cells;
   return shift == 0.0 || (zeros && half_period_ * decay_rate(shift / s) < 1.0);
 }
 
-double ColumnSolver::solve(double* x, std::ptrdiff_t stride, int columns, const double* shift, double s, double scale,
-                           Scratch& scratch) const {
+template <class Scalar>
+double ColumnSolver<Scalar>::solve(Scalar* x, std::ptrdiff_t stride, int columns, const double* shift, double s,
+                                   double scale, Scratch& scratch) const {
   const Rows rows(scratch, columns, row_stride_);
   const int reach = set_up(shift, s, scale, rows);
-  const double* r = rows.decay;
-  const double* c = rows.factor;
+  const Scalar* r = rows.decay;
+  const Scalar* c = rows.factor;
   start_upwards(x, stride, reach, shift, s, rows);
-  const double* below = rows.neighbour;
+  const Scalar* below = rows.neighbour;
   for (int k = 0; k < n_; ++k) {
-    const double* b = x + k * stride;
-    double* y = rows.slab + k * row_stride_;
+    const Scalar* b = x + k * stride;
+    Scalar* y = rows.slab + k * row_stride_;
     if (k + 4 < n_) prefetch(b + 4 * stride, columns);
     for (int i = 0; i < columns; ++i) y[i] = c[i] * b[i] + r[i] * below[i];
     below = y;
   }
   start_downwards(reach, shift, s, rows);
-  const double* above = rows.neighbour;
+  const Scalar* above = rows.neighbour;
   for (int k = n_ - 1; k >= 0; --k) {
-    const double* y = rows.slab + k * row_stride_;
-    double* out = x + k * stride;
+    const Scalar* y = rows.slab + k * row_stride_;
+    Scalar* out = x + k * stride;
     for (int i = 0; i < columns; ++i) out[i] = y[i] + r[i] * above[i];
     above = out;
   }
@@ -106,21 +115,22 @@ double ColumnSolver::solve(double* x, std::ptrdiff_t stride, int columns, const 
 
 // r and c of all columns. Returns the number of terms after which r^m is below round-off for all, or one more than the
 // half period.
-int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows& rows) const {
+template <class Scalar>
+int ColumnSolver<Scalar>::set_up(const double* shift, double s, double scale, const Rows& rows) const {
   const double inverse = 1.0 / s;
   const double slowest = decay_rate(*std::min_element(shift, shift + rows.columns) * inverse);
   for (int i = 0; i < rows.columns; ++i) {
     const double ratio = shift[i] * inverse;
     const double r = 1.0 / (1.0 + 0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio));
-    rows.decay[i] = r;
-    rows.factor[i] = scale * inverse * r;
+    rows.decay[i] = static_cast<Scalar>(r);
+    rows.factor[i] = static_cast<Scalar>(scale * inverse * r);
   }
-  constexpr double negligible = 42.0;  // exp(-42) = 6e-19
+  constexpr double negligible = std::is_same_v<Scalar, double> ? 42.0 : 21.0;  // exp(-42) = 6e-19, exp(-21) = 8e-10
   if (half_period_ * slowest < negligible) {
     for (int i = 0; i < rows.columns; ++i) {
       if (is_direct(shift[i], s)) {
-        rows.decay[i] = 0.0;
-        rows.factor[i] = scale;
+        rows.decay[i] = 0;
+        rows.factor[i] = static_cast<Scalar>(scale);
       }
     }
     return half_period_ + 1;
@@ -129,15 +139,16 @@ int ColumnSolver::set_up(const double* shift, double s, double scale, const Rows
 }
 
 // y_{-1} into the row of neighbours.
-void ColumnSolver::start_upwards(const double* b, std::ptrdiff_t stride, int reach, const double* shift, double s,
-                                 const Rows& rows) const {
+template <class Scalar>
+void ColumnSolver<Scalar>::start_upwards(const Scalar* b, std::ptrdiff_t stride, int reach, const double* shift,
+                                         double s, const Rows& rows) const {
   const int columns = rows.columns;
   const int terms = std::min(reach, n_);
-  const double* r = rows.decay;
-  const double* c = rows.factor;
-  double* start = rows.neighbour;
-  std::fill_n(start, columns, 0.0);
-  std::fill_n(rows.far, columns, 0.0);
+  const Scalar* r = rows.decay;
+  const Scalar* c = rows.factor;
+  Scalar* start = rows.neighbour;
+  std::fill_n(start, columns, Scalar(0));
+  std::fill_n(rows.far, columns, Scalar(0));
   const bool far = reach > half_period_;
   if (ends_ == Basis::fourier) {
     accumulate(b + (n_ - terms) * stride, stride, terms, columns, r, start);
@@ -159,44 +170,47 @@ void ColumnSolver::start_upwards(const double* b, std::ptrdiff_t stride, int rea
         sum = (sum + std::exp(exponent) * rows.far[i]) / -std::expm1(2.0 * exponent);
       }
     }
-    start[i] = first * sum;
+    start[i] = static_cast<Scalar>(first * sum);
   }
 }
 
 // x_n into the row of neighbours.
-void ColumnSolver::start_downwards(int reach, const double* shift, double s, const Rows& rows) const {
+template <class Scalar>
+void ColumnSolver<Scalar>::start_downwards(int reach, const double* shift, double s, const Rows& rows) const {
   const int columns = rows.columns;
-  const double* r = rows.decay;
-  const double* last = rows.slab + (n_ - 1) * row_stride_;
-  double* start = rows.neighbour;
+  const Scalar* r = rows.decay;
+  const Scalar* last = rows.slab + (n_ - 1) * row_stride_;
+  Scalar* start = rows.neighbour;
   switch (ends_) {
     case Basis::sine_points:
-      std::fill_n(start, columns, 0.0);
+      std::fill_n(start, columns, Scalar(0));
       break;
     case Basis::sine_cells:
     case Basis::mixed_cells:  // x_n = -x_{n-1}
-      for (int i = 0; i < columns; ++i) start[i] = -last[i] / (1.0 + r[i]);
+      for (int i = 0; i < columns; ++i) start[i] = -last[i] / (Scalar(1) + r[i]);
       break;
     case Basis::cosine_cells:  // x_n = x_{n-1}
       for (int i = 0; i < columns; ++i) {
         const double ratio = shift[i] / s;
         const double grow = 0.5 * ratio + std::sqrt(ratio + 0.25 * ratio * ratio);  // 1/r - 1, also where r rounds to 1
-        start[i] = r[i] > 0.0 ? last[i] / (grow * r[i]) : 0.0;
+        start[i] = r[i] > 0 ? static_cast<Scalar>(last[i] / (grow * r[i])) : Scalar(0);
       }
       break;
     case Basis::fourier: {
       const int terms = std::min(reach, n_);
-      std::fill_n(start, columns, 0.0);
+      std::fill_n(start, columns, Scalar(0));
       accumulate(rows.slab + (terms - 1) * row_stride_, -row_stride_, terms, columns, r, start);
       if (reach <= half_period_) break;
       for (int i = 0; i < columns; ++i) {
-        if (r[i] > 0.0) start[i] /= -std::expm1(-half_period_ * decay_rate(shift[i] / s));
+        if (r[i] > 0) start[i] = static_cast<Scalar>(start[i] / -std::expm1(-half_period_ * decay_rate(shift[i] / s)));
       }
     }
   }
 }
 
-double ColumnSolver::solve_directly(double* x, std::ptrdiff_t stride, double shift, double s, Scratch& scratch) const {
+template <class Scalar>
+double ColumnSolver<Scalar>::solve_directly(Scalar* x, std::ptrdiff_t stride, double shift, double s,
+                                            Scratch& scratch) const {
   double* column = scratch.column.data();
   for (int k = 0; k < n_; ++k) column[k] = x[k * stride];
   double mean = 0.0;
@@ -233,8 +247,11 @@ double ColumnSolver::solve_directly(double* x, std::ptrdiff_t stride, double shi
     }
     for (int k = 0; k < n_; ++k) column[k] -= total / n_;
   }
-  for (int k = 0; k < n_; ++k) x[k * stride] = column[k];
+  for (int k = 0; k < n_; ++k) x[k * stride] = static_cast<Scalar>(column[k]);
   return mean;
 }
+
+template class ColumnSolver<double>;
+template class ColumnSolver<float>;
 
 }  // namespace vesiflow::fluid

@@ -16,8 +16,9 @@ class FastSolver {
 
   // For another alpha, mu or number of threads.
   virtual void update(const EllipticProblem& problem) = 0;
-  // Returns the mean that was removed from the right-hand side. rhs and x may be the same.
-  virtual double solve(ConstView rhs, View x) = 0;
+  // x becomes the solution, or the sum of *base and the solution. Returns the mean that was removed from the right-hand
+  // side. rhs and x may be the same.
+  virtual double solve(ConstView rhs, View x, const ConstView* base) = 0;
 
  protected:
   FastSolver() = default;

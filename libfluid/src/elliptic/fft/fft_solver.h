@@ -16,7 +16,8 @@ namespace vesiflow::fluid {
 
 class FftSolver final : public EllipticSolver {
  public:
-  // Throws std::invalid_argument for a variable coefficient or the stress form.
+  // Throws std::invalid_argument for a variable coefficient or the stress form, and for an arithmetic that the build or
+  // the transforms do not have.
   FftSolver(const EllipticProblem& problem, const FftOptions& options);
   std::string name() const override { return fluid::name(SolverKind::fft); }
   static std::size_t estimate_memory(const EllipticProblem& problem, const FftOptions& options, int threads);
@@ -24,8 +25,10 @@ class FftSolver final : public EllipticSolver {
  private:
   void do_update(const EllipticProblem& problem) override;
   SolveReport do_solve(ConstBlocks rhs, Blocks x) override;
+  SolveReport do_add_solution(ConstBlocks rhs, ConstBlocks base, Blocks x) override;
 
   FftOptions options_;
+  std::shared_ptr<float[]> single_work_;  // of all blocks, in single precision
   std::vector<std::unique_ptr<FastSolver>> blocks_;
 };
 

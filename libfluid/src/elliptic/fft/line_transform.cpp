@@ -54,18 +54,20 @@ PointsMethod points_method(int n) {
 }
 
 // Rows become c S - i s D and s S + i c D of their sum S and difference D.
-void combine(double* low, double* high, double c, double s) {
-  for (int l = 0; l < lanes; l += 4) {
-    const Vector4 sum = load4(low + l) + load4(high + l);
-    const Vector4 difference = times_i(load4(low + l) - load4(high + l));
-    store4(low + l, c * sum - s * difference);
-    store4(high + l, s * sum + c * difference);
+template <class Scalar>
+void combine(Scalar* low, Scalar* high, Scalar c, Scalar s) {
+  for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+    const Pack<Scalar> sum = load_pack(low + l) + load_pack(high + l);
+    const Pack<Scalar> difference = times_i(load_pack(low + l) - load_pack(high + l));
+    store_pack(low + l, c * sum - s * difference);
+    store_pack(high + l, s * sum + c * difference);
   }
 }
 
 }  // namespace
 
-LineTransform::LineTransform(int length, Basis basis, Direction direction)
+template <class Scalar>
+LineTransform<Scalar>::LineTransform(int length, Basis basis, Direction direction)
     : length_(length),
       intervals_(basis == Basis::sine_points ? length + 1 : length),
       basis_(basis),
@@ -81,70 +83,75 @@ LineTransform::LineTransform(int length, Basis basis, Direction direction)
   }
 }
 
-LineTransform::~LineTransform() = default;
+template <class Scalar>
+LineTransform<Scalar>::~LineTransform() = default;
 
-void LineTransform::plan_cells() {
+template <class Scalar>
+void LineTransform<Scalar>::plan_cells() {
   const int n = length_;
   const bool forward = direction_ == Direction::forward;
-  fft_ = std::make_unique<BlockFft>(n, direction_);
+  fft_ = std::make_unique<Fft>(n, direction_);
   if (basis_ == Basis::fourier) {
     for (int i = 0; i < n; ++i) {
-      input_[i].offset = lanes * i;
+      input_[i].offset = lanes<Scalar> * i;
       output_[i].offset = fft_->row(i);
     }
     return;
   }
   for (int k = 0; k <= n / 2; ++k) {
-    cosine_.push_back(std::cos(0.5 * std::numbers::pi * k / n));
-    sine_.push_back(std::sin(0.5 * std::numbers::pi * k / n));
+    cosine_.push_back(static_cast<Scalar>(std::cos(0.5 * std::numbers::pi * k / n)));
+    sine_.push_back(static_cast<Scalar>(std::sin(0.5 * std::numbers::pi * k / n)));
   }
   auto& space = forward ? input_ : output_;
   auto& modes = forward ? output_ : input_;
   for (int i = 0; i < n; ++i) {
-    space[i].offset = lanes * (i % 2 == 0 ? i / 2 : n - 1 - i / 2);
-    modes[i].offset = lanes * (basis_ == Basis::sine_cells ? n - 1 - i : i);
-    output_[i].offset = fft_->row(static_cast<int>(output_[i].offset / lanes));
-    if (basis_ == Basis::sine_cells && i % 2 == 1) space[i].sign = -1.0;
+    space[i].offset = lanes<Scalar> * (i % 2 == 0 ? i / 2 : n - 1 - i / 2);
+    modes[i].offset = lanes<Scalar> * (basis_ == Basis::sine_cells ? n - 1 - i : i);
+    output_[i].offset = fft_->row(static_cast<int>(output_[i].offset / lanes<Scalar>));
+    if (basis_ == Basis::sine_cells && i % 2 == 1) space[i].sign = -1;
   }
 }
 
-void LineTransform::plan_mixed_cells() {
+template <class Scalar>
+void LineTransform<Scalar>::plan_mixed_cells() {
   const int n = length_;
-  fft_ = std::make_unique<BlockFft>(n, Direction::forward);
+  fft_ = std::make_unique<Fft>(n, Direction::forward);
   for (int i = 0; i < n; ++i) {
-    input_[i] = {lanes * (i % 2 == 0 ? i / 2 : n - 1 - i / 2), i % 2 == 0 ? 1.0 : -1.0};
+    input_[i] = {lanes<Scalar> * (i % 2 == 0 ? i / 2 : n - 1 - i / 2), i % 2 == 0 ? Scalar(1) : Scalar(-1)};
     output_[i].offset = fft_->row(i);
-    cosine_.push_back(std::cos(0.25 * std::numbers::pi * (2 * i + 1) / n));
-    sine_.push_back(std::sin(0.25 * std::numbers::pi * (2 * i + 1) / n));
-    wave_cosine_.push_back(std::cos(std::numbers::pi * i / n));
-    wave_sine_.push_back(std::sin(std::numbers::pi * i / n));
+    cosine_.push_back(static_cast<Scalar>(std::cos(0.25 * std::numbers::pi * (2 * i + 1) / n)));
+    sine_.push_back(static_cast<Scalar>(std::sin(0.25 * std::numbers::pi * (2 * i + 1) / n)));
+    wave_cosine_.push_back(static_cast<Scalar>(std::cos(std::numbers::pi * i / n)));
+    wave_sine_.push_back(static_cast<Scalar>(std::sin(std::numbers::pi * i / n)));
   }
 }
 
-void LineTransform::plan_points() {
+template <class Scalar>
+void LineTransform<Scalar>::plan_points() {
   const int n = intervals_;
-  for (int i = 0; i < length_; ++i) input_[i].offset = lanes * (i + 1);
+  for (int i = 0; i < length_; ++i) input_[i].offset = lanes<Scalar> * (i + 1);
   output_ = input_;
   switch (points_method(n)) {
     case PointsMethod::sum:
-      for (int m = 0; m < 2 * n; ++m) sine_.push_back(2.0 * std::sin(std::numbers::pi * m / n));
+      for (int m = 0; m < 2 * n; ++m) sine_.push_back(static_cast<Scalar>(2.0 * std::sin(std::numbers::pi * m / n)));
       break;
     case PointsMethod::extend:
-      fft_ = std::make_unique<BlockFft>(2 * n, Direction::forward);
+      fft_ = std::make_unique<Fft>(2 * n, Direction::forward);
       for (int i = 0; i < length_; ++i) output_[i].offset = fft_->row(i + 1);
       break;
     case PointsMethod::halve:
-      odd_modes_ = std::make_unique<LineTransform>(n / 2, Basis::sine_cells, Direction::backward);
-      even_modes_ = std::make_unique<LineTransform>(n / 2 - 1, Basis::sine_points, direction_);
+      odd_modes_ = std::make_unique<LineTransform<Scalar>>(n / 2, Basis::sine_cells, Direction::backward);
+      even_modes_ = std::make_unique<LineTransform<Scalar>>(n / 2 - 1, Basis::sine_points, direction_);
       for (int i = 0; i < length_; ++i) {  // mode i + 1
-        const LineTransform& half = i % 2 == 0 ? *odd_modes_ : *even_modes_;
+        const LineTransform<Scalar>& half = i % 2 == 0 ? *odd_modes_ : *even_modes_;
         output_[i] = half.output()[i / 2];
         if (i % 2 == 0) output_[i].offset += static_cast<std::ptrdiff_t>(even_modes_->block_size());
       }
   }
 }
 
-std::size_t LineTransform::block_size(Basis basis, int length) {
+template <class Scalar>
+std::size_t LineTransform<Scalar>::block_size(Basis basis, int length) {
   std::size_t rows = length;
   if (basis == Basis::sine_points) {
     rows = 0;
@@ -152,14 +159,16 @@ std::size_t LineTransform::block_size(Basis basis, int length) {
     for (; points_method(n) == PointsMethod::halve; n /= 2) rows += n / 2;
     rows += points_method(n) == PointsMethod::extend ? 2 * n : n;
   }
-  return lanes * rows;
+  return lanes<Scalar> * rows;
 }
 
-double LineTransform::pair_factor(Basis basis, int length) {
+template <class Scalar>
+double LineTransform<Scalar>::pair_factor(Basis basis, int length) {
   return basis == Basis::fourier ? length : 2.0 * (basis == Basis::sine_points ? length + 1 : length);
 }
 
-void LineTransform::execute(double* block, double* result) const {
+template <class Scalar>
+void LineTransform<Scalar>::execute(Scalar* block, Scalar* result) const {
   const bool forward = direction_ == Direction::forward;
   switch (basis_) {
     case Basis::sine_points:
@@ -182,7 +191,8 @@ void LineTransform::execute(double* block, double* result) const {
   }
 }
 
-void LineTransform::transform_points(double* block, double* result) const {
+template <class Scalar>
+void LineTransform<Scalar>::transform_points(Scalar* block, Scalar* result) const {
   if (fft_) {
     extend_points(block);
     fft_->execute(block, result);
@@ -190,7 +200,7 @@ void LineTransform::transform_points(double* block, double* result) const {
   }
   fold_points(block);
   if (odd_modes_) {
-    odd_modes_->execute(block + lanes * (intervals_ / 2), result + even_modes_->block_size());
+    odd_modes_->execute(block + lanes<Scalar> * (intervals_ / 2), result + even_modes_->block_size());
     even_modes_->execute(block, result);
   } else {
     sum_points(block, result);
@@ -198,123 +208,136 @@ void LineTransform::transform_points(double* block, double* result) const {
 }
 
 // The transform of an odd real line is -i times what is wanted: so the extension is made of i times the lines.
-void LineTransform::extend_points(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::extend_points(Scalar* block) const {
   const int n = intervals_;
-  for (int l = 0; l < lanes; l += 4) {
-    store4(block + l, Vector4{});
-    store4(block + lanes * n + l, Vector4{});
+  for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+    store_pack(block + l, Pack<Scalar>{});
+    store_pack(block + lanes<Scalar> * n + l, Pack<Scalar>{});
   }
   for (int j = 1; j < n; ++j) {
-    for (int l = 0; l < lanes; l += 4) {
-      const Vector4 x = times_i(load4(block + lanes * j + l));
-      store4(block + lanes * j + l, x);
-      store4(block + lanes * (2 * n - j) + l, -x);
+    for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+      const Pack<Scalar> x = times_i(load_pack(block + lanes<Scalar> * j + l));
+      store_pack(block + lanes<Scalar> * j + l, x);
+      store_pack(block + lanes<Scalar> * (2 * n - j) + l, -x);
     }
   }
 }
 
 // u_j into row j and w_j into row n - j, which is where the transform of n/2 cells wants it.
-void LineTransform::fold_points(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::fold_points(Scalar* block) const {
   for (int j = 1; j <= intervals_ - j; ++j) {
-    double* low = block + lanes * j;
-    double* high = block + lanes * (intervals_ - j);
-    for (int l = 0; l < lanes; l += 4) {
-      const Vector4 sum = load4(low + l) + load4(high + l);
-      store4(low + l, load4(low + l) - load4(high + l));
-      store4(high + l, sum);
+    Scalar* low = block + lanes<Scalar> * j;
+    Scalar* high = block + lanes<Scalar> * (intervals_ - j);
+    for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+      const Pack<Scalar> sum = load_pack(low + l) + load_pack(high + l);
+      store_pack(low + l, load_pack(low + l) - load_pack(high + l));
+      store_pack(high + l, sum);
     }
   }
 }
 
 // The sums for four modes at a time, to have enough that are independent: those of one parity from
 // first = 1, 2, 9, 10, 17, ...
-void LineTransform::sum_points(const double* block, double* result) const {
+template <class Scalar>
+void LineTransform<Scalar>::sum_points(const Scalar* block, Scalar* result) const {
   const int n = intervals_;
   for (int first = 1; first < n; first += first % 2 == 1 ? 1 : 7) {
     const bool odd = first % 2 == 1;
-    std::array<std::array<Vector4, lanes / 4>, 4> sum{};
+    std::array<std::array<Pack<Scalar>, lanes<Scalar> / pack<Scalar>>, 4> sum{};
     std::array<int, 4> phase{};  // j k modulo 2n
     for (int j = 1; odd ? 2 * j <= n : 2 * j < n; ++j) {
-      const double* row = block + lanes * (odd ? n - j : j);
-      const double weight = 2 * j == n ? 0.5 : 1.0;
+      const Scalar* row = block + lanes<Scalar> * (odd ? n - j : j);
+      const Scalar weight = 2 * j == n ? Scalar(0.5) : Scalar(1);
       for (int m = 0; m < 4; ++m) {
         phase[m] += first + 2 * m;
         while (phase[m] >= 2 * n) phase[m] -= 2 * n;
-        const double factor = weight * sine_[phase[m]];
-        for (int l = 0; l < lanes / 4; ++l) sum[m][l] += factor * load4(row + 4 * l);
+        const Scalar factor = weight * sine_[phase[m]];
+        for (int l = 0; l < lanes<Scalar> / pack<Scalar>; ++l) sum[m][l] += factor * load_pack(row + pack<Scalar> * l);
       }
     }
     for (int m = 0; m < 4 && first + 2 * m < n; ++m) {
-      for (int l = 0; l < lanes / 4; ++l) store4(result + lanes * (first + 2 * m) + 4 * l, sum[m][l]);
+      for (int l = 0; l < lanes<Scalar> / pack<Scalar>; ++l)
+        store_pack(result + lanes<Scalar> * (first + 2 * m) + pack<Scalar> * l, sum[m][l]);
     }
   }
 }
 
-void LineTransform::prepare_cells(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::prepare_cells(Scalar* block) const {
   for (int k = 1; k <= intervals_ - k; ++k) {
-    double* low = block + lanes * k;
-    double* high = block + lanes * (intervals_ - k);
-    const double c = cosine_[k];
-    const double s = sine_[k];
-    for (int l = 0; l < lanes; l += 4) {
-      const Vector4 y_low = load4(low + l);
-      const Vector4 y_high = load4(high + l);
-      const Vector4 sum = c * y_low + s * y_high;
-      const Vector4 difference = times_i(s * y_low - c * y_high);
-      store4(low + l, sum + difference);
-      store4(high + l, sum - difference);
+    Scalar* low = block + lanes<Scalar> * k;
+    Scalar* high = block + lanes<Scalar> * (intervals_ - k);
+    const Scalar c = cosine_[k];
+    const Scalar s = sine_[k];
+    for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+      const Pack<Scalar> y_low = load_pack(low + l);
+      const Pack<Scalar> y_high = load_pack(high + l);
+      const Pack<Scalar> sum = c * y_low + s * y_high;
+      const Pack<Scalar> difference = times_i(s * y_low - c * y_high);
+      store_pack(low + l, sum + difference);
+      store_pack(high + l, sum - difference);
     }
   }
 }
 
-void LineTransform::finish_cells(double* block) const {
-  for (int l = 0; l < lanes; l += 4) store4(block + l, 2.0 * load4(block + l));
+template <class Scalar>
+void LineTransform<Scalar>::finish_cells(Scalar* block) const {
+  for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) store_pack(block + l, Scalar(2) * load_pack(block + l));
   for (int k = 1; k <= intervals_ - k; ++k) {
     combine(block + fft_->row(k), block + fft_->row(intervals_ - k), cosine_[k], sine_[k]);
   }
 }
 
-void LineTransform::prepare_mixed_cells(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::prepare_mixed_cells(Scalar* block) const {
   for (int j = 1; j < length_; ++j) {
-    const double c = wave_cosine_[j];
-    const double s = wave_sine_[j];
-    for (int at = lanes * j; at < lanes * (j + 1); at += 4) {
-      const Vector4 v = load4(block + at);
-      store4(block + at, c * v - s * times_i(v));
+    const Scalar c = wave_cosine_[j];
+    const Scalar s = wave_sine_[j];
+    for (int at = lanes<Scalar> * j; at < lanes<Scalar> * (j + 1); at += pack<Scalar>) {
+      const Pack<Scalar> v = load_pack(block + at);
+      store_pack(block + at, c * v - s * times_i(v));
     }
   }
 }
 
-void LineTransform::finish_mixed_cells(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::finish_mixed_cells(Scalar* block) const {
   for (int k = 0; k <= length_ - 1 - k; ++k) {
     combine(block + fft_->row(k), block + fft_->row(length_ - 1 - k), cosine_[k], sine_[k]);
   }
 }
 
-void LineTransform::prepare_waves(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::prepare_waves(Scalar* block) const {
   for (int k = 1; k < intervals_ - k; ++k) {
-    double* low = block + lanes * k;
-    double* high = block + lanes * (intervals_ - k);
-    for (int l = 0; l < lanes; l += 4) {
-      const Vector4 real = load4(low + l);
-      const Vector4 imaginary = times_i(load4(high + l));
-      store4(low + l, real + imaginary);
-      store4(high + l, real - imaginary);
+    Scalar* low = block + lanes<Scalar> * k;
+    Scalar* high = block + lanes<Scalar> * (intervals_ - k);
+    for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+      const Pack<Scalar> real = load_pack(low + l);
+      const Pack<Scalar> imaginary = times_i(load_pack(high + l));
+      store_pack(low + l, real + imaginary);
+      store_pack(high + l, real - imaginary);
     }
   }
 }
 
-void LineTransform::finish_waves(double* block) const {
+template <class Scalar>
+void LineTransform<Scalar>::finish_waves(Scalar* block) const {
   for (int k = 1; k < intervals_ - k; ++k) {
-    double* low = block + fft_->row(k);
-    double* high = block + fft_->row(intervals_ - k);
-    for (int l = 0; l < lanes; l += 4) {
-      const Vector4 z_low = 0.5 * load4(low + l);
-      const Vector4 z_high = 0.5 * load4(high + l);
-      store4(low + l, z_low + z_high);
-      store4(high + l, times_i(z_high - z_low));
+    Scalar* low = block + fft_->row(k);
+    Scalar* high = block + fft_->row(intervals_ - k);
+    for (int l = 0; l < lanes<Scalar>; l += pack<Scalar>) {
+      const Pack<Scalar> z_low = Scalar(0.5) * load_pack(low + l);
+      const Pack<Scalar> z_high = Scalar(0.5) * load_pack(high + l);
+      store_pack(low + l, z_low + z_high);
+      store_pack(high + l, times_i(z_high - z_low));
     }
   }
 }
+
+template class LineTransform<double>;
+template class LineTransform<float>;
 
 }  // namespace vesiflow::fluid

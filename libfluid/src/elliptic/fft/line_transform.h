@@ -6,9 +6,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "elliptic/fft/block_fft.h"
+#include "elliptic/fft/single_fft.h"
 
 namespace vesiflow::fluid {
 
@@ -22,9 +24,10 @@ enum class Basis {
 };
 
 // Where a number stands in a block: in the row that begins at offset, with a sign.
+template <class Scalar>
 struct Place {
   std::ptrdiff_t offset = 0;
-  double sign = 1.0;
+  Scalar sign = 1;
 };
 
 // Of n numbers x_j, j = 0 .. n-1, with the definitions (and factors) of FFTW:
@@ -39,8 +42,9 @@ struct Place {
 //                                       y_k = sum_j x_j sin(2 pi j k / n) above (half-complex order)
 //                   backward            y_k = sum_j (1 or 2) x_j (cos or sin)(2 pi j k / n), 1 for j = 0 and n/2
 //
-// The numbers of `lanes` lines (lanes.h) stand side by side in a block: number j of line l at row j, column l.
+// The numbers of lanes<Scalar> lines (lanes.h) stand side by side in a block: number j of line l at row j, column l.
 // Lines 2l and 2l+1 are the real and imaginary parts of one complex line.
+template <class Scalar>
 class LineTransform {
  public:
   LineTransform(int length, Basis basis, Direction direction);
@@ -50,13 +54,13 @@ class LineTransform {
 
   // Number i of line l belongs at input()[i].offset + l in the block, times the sign there; its transform is then
   // found at output()[i].offset + l in the result, to be multiplied by that sign.
-  const Place* input() const { return input_.data(); }
-  const Place* output() const { return output_.data(); }
+  const Place<Scalar>* input() const { return input_.data(); }
+  const Place<Scalar>* output() const { return output_.data(); }
 
   // Transforms a block, which is spoilt. block and result have block_size() numbers, from allocate_aligned or a
   // whole number of rows further. Any number of threads may do this at once, each with its own blocks. Nothing is
-  // allocated, unless n (n + 1 for sine_points) has a prime factor above 31: for these FFTW itself does.
-  void execute(double* block, double* result) const;
+  // allocated, unless n (n + 1 for sine_points) has a prime factor above 31: for these FFTW itself does, in double precision.
+  void execute(Scalar* block, Scalar* result) const;
 
   std::size_t block_size() const { return block_size(basis_, length_); }
   static std::size_t block_size(Basis basis, int length);
@@ -65,28 +69,30 @@ class LineTransform {
   static double pair_factor(Basis basis, int length);
 
  private:
+  using Fft = std::conditional_t<std::is_same_v<Scalar, double>, BlockFft, SingleFft>;
+
   void plan_cells();
   void plan_mixed_cells();
   void plan_points();
-  void transform_points(double* block, double* result) const;
-  void prepare_cells(double* block) const;
-  void finish_cells(double* block) const;
-  void prepare_mixed_cells(double* block) const;
-  void finish_mixed_cells(double* block) const;
-  void prepare_waves(double* block) const;
-  void finish_waves(double* block) const;
-  void fold_points(double* block) const;
-  void sum_points(const double* block, double* result) const;
-  void extend_points(double* block) const;
+  void transform_points(Scalar* block, Scalar* result) const;
+  void prepare_cells(Scalar* block) const;
+  void finish_cells(Scalar* block) const;
+  void prepare_mixed_cells(Scalar* block) const;
+  void finish_mixed_cells(Scalar* block) const;
+  void prepare_waves(Scalar* block) const;
+  void finish_waves(Scalar* block) const;
+  void fold_points(Scalar* block) const;
+  void sum_points(const Scalar* block, Scalar* result) const;
+  void extend_points(Scalar* block) const;
 
   int length_;
   int intervals_;  // length, or one more for sine_points
   Basis basis_;
   Direction direction_;
-  std::vector<double> cosine_, sine_;
-  std::vector<double> wave_cosine_, wave_sine_;  // of pi j / n, for mixed_cells
-  std::vector<Place> input_, output_;
-  std::unique_ptr<BlockFft> fft_;                          // of cells, waves, or points extended to a period
+  std::vector<Scalar> cosine_, sine_;
+  std::vector<Scalar> wave_cosine_, wave_sine_;  // of pi j / n, for mixed_cells
+  std::vector<Place<Scalar>> input_, output_;
+  std::unique_ptr<Fft> fft_;                               // of cells, waves, or points extended to a period
   std::unique_ptr<LineTransform> odd_modes_, even_modes_;  // of points, if their number of intervals is even
 };
 

@@ -54,7 +54,7 @@ R2rSolver::R2rSolver(const EllipticProblem& problem)
       plans_(std::make_unique<Plans>(problem, work_.get())) {
   for (int axis = 0; axis < 3; ++axis) {
     eigenvalues_[axis] = eigenvalues(problem, axis);
-    normalisation_ /= LineTransform::pair_factor(eigenbasis(problem, axis), extent_[axis]);
+    normalisation_ /= LineTransform<double>::pair_factor(eigenbasis(problem, axis), extent_[axis]);
   }
   R2rSolver::update(problem);
 }
@@ -71,7 +71,7 @@ std::size_t R2rSolver::estimate_memory(const EllipticProblem& problem) {
   return sizeof(double) * problem.unknowns();
 }
 
-double R2rSolver::solve(ConstView rhs, View x) {
+double R2rSolver::solve(ConstView rhs, View x, const ConstView* base) {
   const int nx = extent_[0], ny = extent_[1], nz = extent_[2];
   const auto row = [&](int j, int k) { return work_.get() + (static_cast<std::ptrdiff_t>(k) * ny + j) * nx; };
   for (int k = 0; k < nz; ++k) {
@@ -84,7 +84,9 @@ double R2rSolver::solve(ConstView rhs, View x) {
   if (nullspace_) work_[0] = 0.0;
   fftw_execute(plans_->backward.get());
   for (int k = 0; k < nz; ++k) {
-    for (int j = 0; j < ny; ++j) std::copy_n(row(j, k), nx, x.row(j, k));
+    for (int j = 0; j < ny; ++j) {
+      for (int i = 0; i < nx; ++i) x(i, j, k) = base != nullptr ? (*base)(i, j, k) + row(j, k)[i] : row(j, k)[i];
+    }
   }
   return mean;
 }

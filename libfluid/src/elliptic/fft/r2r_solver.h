@@ -21,7 +21,7 @@ class R2rSolver final : public FastSolver {
   explicit R2rSolver(const EllipticProblem& problem);
   ~R2rSolver() override;
   void update(const EllipticProblem& problem) override;
-  double solve(ConstView rhs, View x) override;
+  double solve(ConstView rhs, View x, const ConstView* base) override;
   static std::size_t estimate_memory(const EllipticProblem& problem);
 
  private:

@@ -46,6 +46,8 @@ void multiply(ConstBlocks x, Blocks y) {
 
 PcgSolver::PcgSolver(const EllipticProblem& problem, const PcgOptions& options)
     : EllipticSolver(problem), options_(checked(options)) {
+  const auto* fft = std::get_if<FftOptions>(&options_.preconditioner);
+  single_ = fft != nullptr && fft->arithmetic == FftOptions::Arithmetic::single;
   update(problem);
 }
 
@@ -130,6 +132,8 @@ void PcgSolver::set_scale(const EllipticProblem& problem, double reference) {
 void PcgSolver::precondition(ConstBlocks r, Blocks z) {
   if (!scale_) {
     preconditioner_->solve(r, z);
+    // In single precision means are zero to round-off of that.
+    if (single_ && problem().has_nullspace()) plane_sums_.remove_means(z);
     return;
   }
   copy(r, z);

@@ -30,6 +30,7 @@ class PcgSolver final : public EllipticSolver {
   void precondition(ConstBlocks r, Blocks z);
 
   PcgOptions options_;
+  bool single_ = false;  // whether the preconditioner computes in single precision
   std::unique_ptr<EllipticSolver> preconditioner_;
   std::unique_ptr<Stencil> stencil_;
   std::unique_ptr<GhostedBlocks> scale_;      // of r before and z after "fft", if mu is a field; else null

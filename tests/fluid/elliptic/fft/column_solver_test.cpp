@@ -52,8 +52,8 @@ TEST_P(Columns, SatisfyTheirEquationsToRoundOff) {
   const std::vector<double> shift{1e-3, 1e-13, 1e-8, 0.02, 0.0, 0.5, 30.0, 1e4, 1e17};
   const int columns = static_cast<int>(shift.size());
   for (const int n : {3, 4, 5, 16, 37, 200}) {
-    const ColumnSolver solver(n, GetParam(), columns);
-    ColumnSolver::Scratch scratch(solver);
+    const ColumnSolver<double> solver(n, GetParam(), columns);
+    ColumnSolver<double>::Scratch scratch(solver);
     const int stride = columns + 2;
     std::mt19937 generator(5);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -84,8 +84,8 @@ TEST_P(Columns, SatisfyTheirEquationsToRoundOff) {
 TEST(ColumnSolver, IsAccurateIfAnEndIsZero) {
   const int n = 40;
   for (const Basis ends : {Basis::sine_points, Basis::sine_cells, Basis::mixed_cells}) {
-    const ColumnSolver solver(n, ends, 1);
-    ColumnSolver::Scratch scratch(solver);
+    const ColumnSolver<double> solver(n, ends, 1);
+    ColumnSolver<double>::Scratch scratch(solver);
     std::mt19937 generator(6);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     std::vector<Real> exact(n);
