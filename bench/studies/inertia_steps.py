@@ -27,7 +27,7 @@ RATIOS, STEPS, SHORTEST, SINCE = (0.3, 0.5, 1, 1.7, 3, 5, 6, 20), (48, 96, 192),
 COLUMNS = {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency"}
 KEYS = {"coupling.method": "sharp", "coupling.thickness_correction": "false", "domain.cells": "[40, 20, 40]", "domain.periodic": "[false, false, false]",
         "flow.type": "shear", "fluid.reynolds_number": 5, "membrane.capillary_number": 2, "membrane.sigma0": 2000, "mesh.latitudes": 32,
-        "vesicles.0.centre": "[0, 0, 0]", "vesicles.0.reduced_volume": 0.92, "vesicles.0.rotation_deg": 25, "time.end": 2,
+        "vesicles.0.centre": "[0, 0, 0]", "vesicles.0.reduced_volume": 0.92, "vesicles.0.rotation_deg": 25, "time.end": 2, "method.accuracy": "as_given",
         "output.diagnostics_every": 0.25, "output.vesicle_every": 0, "output.checkpoint_every": 0}
 
 

@@ -7,7 +7,7 @@
 namespace vesiflow::coupling {
 
 /// How the inertia of two viscosities between sharp membranes is shared between the fluid's solver, which has one Reynolds
-/// number for w = mu u, and a force on it. docs/jump_conditions.md#the-acceleration-that-is-extrapolated.
+/// number for w = mu u, and a force on it. docs/jump_conditions.md, The acceleration that is extrapolated.
 struct PhaseSplitting {
   double solved_reynolds_number;  ///< Re_s, of the solver
   double curvature;  ///< b in the extrapolation 2 w^k - w^(k-1) + b (w^k - 2 w^(k-1) + w^(k-2)) of the rest, 0 to 1

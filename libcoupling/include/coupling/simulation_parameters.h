@@ -10,8 +10,8 @@
 
 #include "coupling/delta_kernel.h"
 #include "coupling/export.h"
-#include "coupling/phase_splitting.h"
 #include "coupling/marker_motion.h"
+#include "coupling/phase_splitting.h"
 #include "fluid/elliptic_solver.h"
 #include "fluid/navier_stokes.h"
 #include "vesicle/coefficients.h"

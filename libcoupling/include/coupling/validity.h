@@ -65,6 +65,10 @@ constexpr double slow_reynolds_number_of_phases = 0.1;
 /// PhaseInertia::splitting).
 constexpr double widest_contrast_of_second_order = 5.0;
 
+/// Sharp membranes in a fluid of a larger Reynolds number than this are quiet on grids of up to so many spacings per radius (S, tried to 10):
+/// with 12, Re = 9 and Ca = 1.2 blows up at ratio 0.6 and grows noisy at 1 and 1.7, whatever step and sigma0; at Re = 5 it is quiet.
+constexpr double largest_reynolds_number_of_fine_sharp = 5.0, most_cells_per_radius_with_inertia_of_sharp = 8.0;
+
 /// Nearest that a sharp membrane comes to a wall, in spacings: nearer, markers would read points beyond it.
 constexpr double sharp_wall_clearance = 1.5;
 /// Fewest spacings of the grid per radius of a sharp membrane: with 4 the angle at ratio 5 is within 8 %
@@ -133,6 +137,8 @@ VESIFLOW_COUPLING_EXPORT double largest_radius(const SimulationParameters& param
 VESIFLOW_COUPLING_EXPORT double vesicle_reynolds_number(const SimulationParameters& parameters);
 /// Whether there is more inertia than sharp membranes around a thinner fluid are quiet with, if the membranes are sharp.
 VESIFLOW_COUPLING_EXPORT bool passes_inertia_of_thin_sharp(const SimulationParameters& parameters);
+/// Whether sharp membranes would have more inertia than such fine grids allow.
+VESIFLOW_COUPLING_EXPORT bool passes_inertia_of_fine_sharp(const SimulationParameters& parameters);
 
 /// Capillary number of a vesicle in the unit of time and its own radius: mu r^3/(c_b t), whatever the unit of length.
 VESIFLOW_COUPLING_EXPORT double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle);

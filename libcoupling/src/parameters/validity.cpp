@@ -55,6 +55,13 @@ bool passes_inertia_of_thin_sharp(const SimulationParameters& parameters) {
          vesicle_reynolds_number(parameters) > validity::largest_reynolds_number_of_thin_sharp(ratio);
 }
 
+bool passes_inertia_of_fine_sharp(const SimulationParameters& parameters) {
+  constexpr double rounding = 1.125;  // up to an even number of cells with small factors
+  return vesicle_reynolds_number(parameters) > validity::largest_reynolds_number_of_fine_sharp &&
+         largest_radius(parameters) >
+             rounding * validity::most_cells_per_radius_with_inertia_of_sharp * parameters.spacing();
+}
+
 double own_capillary_number(const SimulationParameters& parameters, std::size_t vesicle) {
   const double radius = parameters.vesicles[vesicle].radius;
   return parameters.capillary_number(vesicle) * radius * radius * radius;

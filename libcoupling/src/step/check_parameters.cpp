@@ -138,7 +138,8 @@ void check_physics(const SimulationParameters& parameters) {
         "treatment"));
   if (parameters.fluid.precision == fluid::Precision::mixed && parameters.fluid.inertia == fluid::Inertia::none)
     throw ParameterError(
-        "fluid.precision = \"mixed\": is of the velocity solve in steps with inertia, and fluid.inertia = \"none\"; take "
+        "fluid.precision = \"mixed\": is of the velocity solve in steps with inertia, and fluid.inertia = \"none\"; "
+        "take "
         "fluid.precision = \"double\", or fluid.inertia = \"full\" or \"unsteady\"");
   try {
     fluid::check_solver_limits(fluid::EllipticProblem::pressure(grid_of(parameters)),

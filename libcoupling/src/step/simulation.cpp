@@ -104,9 +104,9 @@ void Simulation::make_vesicles() {
     std::vector<PhaseInertia::Body> bodies;
     for (const auto& v : vesicles_)
       if (v->two_phase) bodies.push_back({&*v->sharp, v->two_phase->ratio()});
-    phase_inertia_ = std::make_unique<PhaseInertia>(fluid_.grid(), parameters_.fluid.reynolds_number,
-                                                    parameters_.phase_splitting(), std::move(bodies),
-                                                    parameters_.fluid.inertia == fluid::Inertia::full);
+    phase_inertia_ =
+        std::make_unique<PhaseInertia>(fluid_.grid(), parameters_.fluid.reynolds_number, parameters_.phase_splitting(),
+                                       std::move(bodies), parameters_.fluid.inertia == fluid::Inertia::full);
     fluid_.keep_force();  // the interfaces' velocities are iterated
   }
   if (parameters_.time.markers != MarkerMotion::implicit) return;
@@ -287,8 +287,7 @@ SimulationState Simulation::state() const {
 void Simulation::restore_phases(const SimulationState& state) {
   std::vector<PhaseInertia::InnerState> inner;
   for (std::size_t i = 0; i < vesicles_.size(); ++i)
-    if (vesicles_[i]->two_phase)
-      inner.push_back(state.vesicles[i].inner_velocities);
+    if (vesicles_[i]->two_phase) inner.push_back(state.vesicles[i].inner_velocities);
   phase_inertia_->restore(state.outer_velocities, inner, state.earlier_step, fluid_);
 }
 

@@ -19,7 +19,7 @@ namespace vesiflow::coupling {
 namespace {
 
 constexpr std::array<std::size_t, 3> axes{0, 1, 2};
-constexpr std::size_t numbers_at_first = 6;
+constexpr std::size_t numbers_at_first = 12;
 
 /// Points that a box which must grow gets more than it needs, so that a body that moves and turns hardly ever allocates.
 constexpr int room = 4;
@@ -56,10 +56,10 @@ BodyPhases::Points BodyPhases::points_of(const Times& of) const {
   Points common{};
   if (boxes_.empty()) return common;
   for (const std::size_t axis : axes) {
-    const auto first = [&](std::size_t back) { return boxes_[of[back]].first[axis]; };
-    const auto [low, high] = std::minmax({first(0), first(1), first(2)});
-    common.first[axis] = high + 1;
-    common.extent[axis] = std::max(0, low + points_[axis] - 1 - common.first[axis]);
+    const auto begin = [&](std::size_t back) { return boxes_[of[back]].known[axis]; };
+    const auto end = [&](std::size_t back) { return begin(back) + boxes_[of[back]].extent[axis]; };
+    common.first[axis] = std::max({begin(0), begin(1), begin(2)}) + 1;
+    common.extent[axis] = std::max(0, std::min({end(0), end(1), end(2)}) - 1 - common.first[axis]);
   }
   return common;
 }
@@ -99,6 +99,8 @@ void BodyPhases::resize(const std::array<int, 3>& points) {
       shift[axis] = (points[axis] - points_[axis]) / 2;
       to.first[axis] = from.first[axis] - shift[axis];
     }
+    to.known = from.known;
+    to.extent = from.extent;
     for (const auto phase : {&Box::whole, &Box::outer, &Box::inner}) {
       const auto sources = (from.*phase).velocity.points();
       const auto targets = (to.*phase).velocity.points();
@@ -129,7 +131,10 @@ void BodyPhases::frame(std::size_t time, const SharpTransfer& body) {
     if (needed[axis] > points[axis]) points[axis] = needed[axis] + room;
   }
   if (points != points_) resize(points);
-  for (const std::size_t axis : axes) boxes_[time].first[axis] = first[axis] - (points_[axis] - needed[axis]) / 2;
+  Box& box = boxes_[time];
+  for (const std::size_t axis : axes) box.first[axis] = first[axis] - (points_[axis] - needed[axis]) / 2;
+  box.known = box.first;
+  box.extent = points_;
 }
 
 BodyPhases::Held BodyPhases::held_at(int point, std::size_t axis, std::size_t component, int extent) const {
@@ -253,8 +258,8 @@ std::vector<double> BodyPhases::state(std::size_t time, bool has_outer) const {
   const Box& box = boxes_.at(time);
   std::vector<double> row;
   row.reserve(numbers_at_first + (has_outer ? 2 : 1) * storage(box.inner.velocity));
-  row.insert(row.end(), box.first.begin(), box.first.end());
-  row.insert(row.end(), points_.begin(), points_.end());
+  for (const std::array<int, 3>* numbers : {&box.first, &points_, &box.known, &box.extent})
+    row.insert(row.end(), numbers->begin(), numbers->end());
   const auto append = [&row](const double* values, std::size_t count) {
     row.insert(row.end(), values, values + count);
   };
@@ -282,8 +287,10 @@ void BodyPhases::restore(std::span<const Saved> saved) {
     if (each.size() < numbers_at_first) refuse();
     if (!std::ranges::all_of(each, [](double x) { return std::isfinite(x); })) refuse();
     for (const std::size_t axis : axes) {
-      whole_number(each[axis], -1e9, 1e9);
+      const int first = whole_number(each[axis], -1e9, 1e9);
       if (each[3 + axis] != row[3 + axis]) refuse();
+      const int known = whole_number(each[6 + axis], first, std::min(first + each[3 + axis], 1e9));
+      whole_number(each[9 + axis], 0, std::min(first + each[3 + axis] - known, 1e9));
     }
   }
   for (const std::size_t axis : axes) {
@@ -299,7 +306,11 @@ void BodyPhases::restore(std::span<const Saved> saved) {
     Box& box = boxes_[one.time];
     const std::size_t phases = one.outer == nullptr ? 2 : 1;
     if (one.inner.size() != numbers_at_first + phases * storage(box.inner.velocity)) refuse();
-    for (const std::size_t axis : axes) box.first[axis] = static_cast<int>(one.inner[axis]);
+    for (const std::size_t axis : axes) {
+      box.first[axis] = static_cast<int>(one.inner[axis]);
+      box.known[axis] = static_cast<int>(one.inner[6 + axis]);
+      box.extent[axis] = static_cast<int>(one.inner[9 + axis]);
+    }
     const double* next = one.inner.data() + numbers_at_first;
     const auto take = [&next](double* values, std::size_t size) {
       std::copy_n(next, size, values);

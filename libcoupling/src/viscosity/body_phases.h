@@ -33,7 +33,7 @@ class BodyPhases {
   void keep(std::size_t time, const SharpTransfer& body, const fluid::FaceVector& velocity,
             const fluid::FaceVector& continuation);
 
-  /// Points with all that differences there take in. Those of all these times, or none.
+  /// Points with all that differences there take in. Those known at all these times, or none: boxes may have grown since.
   struct Points {
     std::array<int, 3> first, extent;
     bool any() const { return extent[0] > 0 && extent[1] > 0 && extent[2] > 0; }
@@ -60,8 +60,8 @@ class BodyPhases {
   /// Puts w outside of the body, continued, into a field of the grid, where the box has points.
   void put_outer(std::size_t time, fluid::FaceVector& velocity) const;
 
-  /// A row of numbers of one time for checkpoints: first point and number of points of the box along each axis, then the
-  /// components of w inside with their ghosts and, if asked for, those of w outside.
+  /// A row of numbers of one time for checkpoints: first point and number of points of the box along each axis and of
+  /// those that are known, then the components of w inside with their ghosts and, if asked for, those of w outside.
   std::vector<double> state(std::size_t time, bool has_outer = false) const;
   /// What a time is restored from.
   struct Saved {
@@ -82,7 +82,8 @@ class BodyPhases {
   struct Box {
     Box(const fluid::Grid& grid, bool convects) : whole(grid, convects), outer(grid, convects), inner(grid, convects) {}
     std::array<int, 3> first{};
-    Phase whole, outer, inner;  // on a grid of its own
+    Phase whole, outer, inner;             // on a grid of its own
+    std::array<int, 3> known{}, extent{};  // of the points that are known: the box as it was when it was filled
   };
   /// Where along an axis a field of the grid holds a point, and the factor of its value: beyond a mirror plane that of its
   /// image, for the component normal to the plane with the other sign.

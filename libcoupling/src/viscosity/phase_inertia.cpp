@@ -397,9 +397,9 @@ void PhaseInertia::restore(std::span<const fluid::FaceVector> outer, std::span<c
   const std::size_t known = earlier_step > 0.0 && splitting_.curvature > 0.0 ? 3 : 2;
   const std::size_t on_grid = earlier_.empty() ? 2 : known;
   if (outer.size() != on_grid || inner.size() != bodies_.size())
-    throw std::invalid_argument(
-        fmt::format("the state has {} velocities of the outer phase and those inside of {} vesicles, expected {} and {}",
-                    outer.size(), inner.size(), on_grid, bodies_.size()));
+    throw std::invalid_argument(fmt::format(
+        "the state has {} velocities of the outer phase and those inside of {} vesicles, expected {} and {}",
+        outer.size(), inner.size(), on_grid, bodies_.size()));
   for (const InnerState& rows : inner)
     if (rows.size() != known)
       throw std::invalid_argument(

@@ -50,8 +50,8 @@ class PhaseInertia {
   static constexpr double smoothing = 0.25;
 
   /// \param bodies at least one; their transfers live longer than this
-  PhaseInertia(const fluid::Grid& grid, double reynolds_number, const PhaseSplitting& splitting, std::vector<Body> bodies,
-               bool convects);
+  PhaseInertia(const fluid::Grid& grid, double reynolds_number, const PhaseSplitting& splitting,
+               std::vector<Body> bodies, bool convects);
 
   /// Starts from a velocity u of the fluid that no step has made.
   void begin(const fluid::FaceVector& velocity);
@@ -166,8 +166,9 @@ class PhaseInertia {
   PhaseSplitting splitting_;
   std::vector<BodyPhases> phases_;  // of the bodies
   static constexpr std::size_t first_time = 12;
-  std::size_t now_ = first_time, remembered_ = first_time;  // counts times; of the bodies that is time(0), of lists of three now_ % 3
-  std::array<double, BodyPhases::times> steps_{};           // that led to them; 0: none
+  std::size_t now_ = first_time,
+              remembered_ = first_time;  // counts times; of the bodies that is time(0), of lists of three now_ % 3
+  std::array<double, BodyPhases::times> steps_{};  // that led to them; 0: none
   Coefficients c_;
   std::array<Component, 3> components_;
   fluid::FaceVector explicit_, next_;  // the prepared force, and w^(k+1) extrapolated in the phase that a point is in

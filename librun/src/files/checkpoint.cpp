@@ -57,7 +57,8 @@ void read_velocity(const Hdf5File& file, const std::string& name, fluid::FaceVec
 }
 
 /// Of VesicleState::inner_velocities.
-constexpr std::array<const char*, 3> inner_names{"/inner_velocity", "/previous_inner_velocity", "/earlier_inner_velocity"};
+constexpr std::array<const char*, 3> inner_names{"/inner_velocity", "/previous_inner_velocity",
+                                                 "/earlier_inner_velocity"};
 
 void write_vesicle(Hdf5File& file, const std::string& group, const coupling::VesicleState& state) {
   const auto& m = state.membrane;

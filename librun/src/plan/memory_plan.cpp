@@ -74,8 +74,9 @@ MemoryPlan plan_memory(const Scene& scene) {
       const bool convects = scene.fluid.inertia == fluid::Inertia::full;
       const coupling::PhaseSplitting splitting = scene.phase_splitting();
       const bool solves_another = splitting.solved_reynolds_number != scene.fluid.reynolds_number;
-      plan.fluid += (9.0 + (solves_another && convects ? 9.0 : 0.0) +
-                     (solves_another && splitting.curvature > 0.0 ? 9.0 : 0.0)) * field;
+      plan.fluid +=
+          (9.0 + (solves_another && convects ? 9.0 : 0.0) + (solves_another && splitting.curvature > 0.0 ? 9.0 : 0.0)) *
+          field;
       plan.membranes += 12.0 * (convects ? 6.0 : 3.0) * body_box_bytes(scene);
     }
   }

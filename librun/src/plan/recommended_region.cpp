@@ -61,6 +61,12 @@ std::string describe_sharp_region(const Scene& scene) {
         "<= {:g}, ratios >= {:g}, fluid.inertia = \"none\" or coupling.method = \"delta\"",
         least, validity::largest_reynolds_number_of_thin_sharp(least), validity::thin_sharp_ratio);
   }
+  if (coupling::passes_inertia_of_fine_sharp(scene))
+    warning += fmt::format(
+        "  <- WARNING: with Reynolds numbers above {:g}, grids with more than {:g} cells per radius can blow up: take "
+        "fewer domain.cells, fluid.reynolds_number <= {:g} or coupling.method = \"delta\"",
+        validity::largest_reynolds_number_of_fine_sharp, validity::most_cells_per_radius_with_inertia_of_sharp,
+        validity::largest_reynolds_number_of_fine_sharp);
   return fmt::format(
       "for coupling.method = \"sharp\" shapes, Reynolds numbers and viscosity ratios without inertia are mapped: other "
       "limits are those of "

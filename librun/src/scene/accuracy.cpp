@@ -38,8 +38,8 @@ bool wants_sharp(const Scene& scene) {
 
 Settings settings_of(const Scene& scene) {
   const bool is_fine = scene.method.accuracy == Accuracy::per_mille;
-  // Where the fluid has inertia, the step's error on the way from the start is what is left.
-  if (wants_sharp(scene)) return is_fine ? Settings{16.0, 4.0, is_slow(scene) ? 96.0 : 192.0} : Settings{8.0, 5.0, 96.0};
+  if (wants_sharp(scene) && is_fine) return is_slow(scene) ? Settings{16.0, 4.0, 96.0} : Settings{18.0, 4.0, 192.0};
+  if (wants_sharp(scene)) return Settings{8.0, 5.0, 96.0};
   return is_fine ? Settings{12.0, 5.0, 192.0} : Settings{8.0, 5.0, 96.0};
 }
 
@@ -122,14 +122,21 @@ void check_accuracy(const Scene& scene) {
         fmt::format("{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}, or "
                     "fluid.inertia = \"none\"; leave method.accuracy out, and compare two grids",
                     key, scene.fluid.reynolds_number, largest_reynolds_number / (radius * radius)));
+  constexpr double largest_of_fine = coupling::validity::largest_reynolds_number_of_fine_sharp;
+  if (scene.method.accuracy == Accuracy::per_mille && re > largest_of_fine)
+    throw ParameterError(
+        fmt::format("{}: no settings are known for fluid.reynolds_number = {:g}; it must be <= {:g}: above, sharp "
+                    "membranes can blow "
+                    "up on so fine a grid (docs/performance.md#presets); take \"1e-2\"",
+                    key, scene.fluid.reynolds_number, largest_of_fine / (radius * radius)));
   if (const double contrast = scene.viscosity_range().contrast();
       !is_slow(scene) && contrast > widest_contrast_with_inertia)
-    throw ParameterError(
-        fmt::format("{}: no settings are known for viscosities that differ by a factor of {:g} at fluid.reynolds_number "
-                    "= {:g}; it must be <= {:g} above {:g}, where the step is of second order "
-                    "(docs/performance.md#presets); leave method.accuracy out, and compare two grids and two steps",
-                    key, contrast, scene.fluid.reynolds_number, widest_contrast_with_inertia,
-                    largest_slow_reynolds_number / (radius * radius)));
+    throw ParameterError(fmt::format(
+        "{}: no settings are known for viscosities that differ by a factor of {:g} at fluid.reynolds_number "
+        "= {:g}; it must be <= {:g} above {:g}, where the step is of second order "
+        "(docs/performance.md#presets); leave method.accuracy out, and compare two grids and two steps",
+        key, contrast, scene.fluid.reynolds_number, widest_contrast_with_inertia,
+        largest_slow_reynolds_number / (radius * radius)));
   const double ratio = scene.viscosity_range().least;
   if (re > 0.0 && ratio < least_ratio_with_inertia)
     throw ParameterError(

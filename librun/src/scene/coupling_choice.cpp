@@ -40,6 +40,9 @@ double least_reduced_volume(const Scene& scene) {
 
 // Where the inertia of two phases blows up: docs/coupling.md#sharp-membranes.
 std::string limit_of_inertia(const Scene& scene) {
+  if (coupling::passes_inertia_of_fine_sharp(scene))
+    return fmt::format("with such inertia, sharp membranes can blow up on grids with more than {:g} cells per radius",
+                       coupling::validity::most_cells_per_radius_with_inertia_of_sharp);
   if (!coupling::passes_inertia_of_thin_sharp(scene)) return "";
   return fmt::format("with such inertia, sharp membranes around a fluid of ratio {:g} blow up",
                      scene.viscosity_range().least);

@@ -183,10 +183,9 @@ TEST_F(CheckpointContents, OnlyInterfacesOfTwoViscositiesHaveAVelocity) {
 TEST_F(CheckpointContents, OnlyInterfacesOfTwoViscositiesWithInertiaHaveAnInside) {
   EXPECT_FALSE(has_data(path_, "/outer_velocity"));
   EXPECT_FALSE(has_data(path_, "/vesicle_0/inner_velocity"));
-  SceneSimulation sharp(coupling::small_scene({"domain.cells=12", "mesh.latitudes=8", "mesh.tangential_degrees=8",
-                                               "time.markers=shape_following", "coupling.method=sharp",
-                                               "fluid.inertia=full", "fluid.viscosity_ratio=5",
-                                               "fluid.reynolds_number=1"}));
+  SceneSimulation sharp(coupling::small_scene(
+      {"domain.cells=12", "mesh.latitudes=8", "mesh.tangential_degrees=8", "time.markers=shape_following",
+       "coupling.method=sharp", "fluid.inertia=full", "fluid.viscosity_ratio=5", "fluid.reynolds_number=1"}));
   for (int step = 0; step < 3; ++step) sharp.step();
   write_checkpoint(path_, sharp);
   const coupling::SimulationState written = sharp.state(), read = read_checkpoint(path_).state;

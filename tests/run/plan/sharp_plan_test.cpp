@@ -85,6 +85,8 @@ TEST(SharpPlan, OfTwoViscositiesWithInertia) {
   PlanText(sharp({"fluid.viscosity_ratio=0.05", "fluid.inertia=full", "fluid.reynolds_number=0.1"}))
       .has("a fluid of ratio 0.05 inside can blow up at such Reynolds numbers: take fluid.reynolds_number <= 0.005");
   PlanText(sharp({"fluid.viscosity_ratio=0.05"})).has_not("blow up at such");
+  PlanText(sharp({inertia, ten, "domain.cells=128"})).has("grids with more than 8 cells per radius can blow up");
+  PlanText(sharp({inertia, ten, "domain.cells=40"})).has_not("cells per radius can blow up");
   PlanText(sharp({"fluid.viscosity_ratio=0.2", "fluid.inertia=full", "fluid.reynolds_number=1"}))
       .has_not("can blow up at such Reynolds numbers");
 }

@@ -65,6 +65,12 @@ TEST(CouplingChoice, SaysWhyItIsDelta) {
   EXPECT_EQ(scene(slender_on("domain.cells=48")).coupling.method, CouplingMethod::sharp);
   expect_delta({"fluid.viscosity_ratio=0.1", "fluid.reynolds_number=0.1"}, "ratio 0.1 blow up");
   expect_delta({"fluid.viscosity_ratio=0.3", "fluid.reynolds_number=2"}, "ratio 0.3 blow up");
+  const auto fine = [](const char* cells, const char* reynolds_number) {
+    return Overrides{"domain.lower=[-3, -3, -3]", "domain.upper=[3, 3, 3]", cells, reynolds_number};
+  };
+  expect_delta(fine("domain.cells=72", "fluid.reynolds_number=9"), "more than 8 cells per radius");
+  EXPECT_EQ(scene(fine("domain.cells=72", "fluid.reynolds_number=5")).coupling.method, CouplingMethod::sharp);
+  EXPECT_EQ(scene(fine("domain.cells=48", "fluid.reynolds_number=9")).coupling.method, CouplingMethod::sharp);
 }
 
 TEST(CouplingChoice, LeavesWhatIsAskedFor) {

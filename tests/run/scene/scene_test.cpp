@@ -119,7 +119,10 @@ TEST(Scene, AccuracyIsRefusedWhereNoSettingsAreKnown) {
   expect_parts(message_of(sphere, {"method.accuracy=1e-4"}), {"1e-4", "no settings are known"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "fluid.reynolds_number=20"}),
                {"1e-2", "reynolds_number = 20", "<= 10"});
-  EXPECT_EQ(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=1", "fluid.viscosity_ratio=5"}), "accepted");
+  EXPECT_EQ(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=1", "fluid.viscosity_ratio=5"}),
+            "accepted");
+  expect_parts(message_of(sphere, {"method.accuracy=1e-3", "fluid.reynolds_number=6"}),
+               {"1e-3", "reynolds_number = 6", "<= 5"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "fluid.reynolds_number=1", "fluid.viscosity_ratio=6"}),
                {"1e-2", "factor of 6", "reynolds_number = 1", "<= 5"});
   expect_parts(message_of(sphere, {"method.accuracy=1e-2", "fluid.viscosity_ratio=0.1"}), {"1e-2", "ratio 0.1"});

@@ -18,12 +18,13 @@ namespace vesiflow::coupling {
 // Where s of the outer phase is 1, nothing is put on the grid away from bodies. A larger Re_s makes the phase of s << 1 slow to forget. Thin
 // insides are quietest with s = 2.5 and b = 0 (ratio 0.05, Re = 0.05, dt = 1/48: a surface divergence of 0.1, with 1.8 and 1/3 of 0.6),
 // thick ones beyond the reach of b = 1 with 1.8 and 1/3 (ratio 100, Re = 3, dt = 1/48: 0.03, with 1 and 1/3 of 0.2).
-PhaseSplitting phase_splitting(double reynolds_number, double least_ratio, double greatest_ratio,
-                               bool is_slow) {
+PhaseSplitting phase_splitting(double reynolds_number, double least_ratio, double greatest_ratio, bool is_slow) {
   constexpr double least_share = 0.28, greatest_share = 1.4, share_of_some_curvature = 1.8, share_of_two_times = 2.5;
   const double greatest = reynolds_number / least_ratio, least = reynolds_number / greatest_ratio;
-  if (is_slow || least_ratio < validity::thin_sharp_ratio) return {std::max(reynolds_number, greatest / share_of_two_times), 0.0};
-  if (greatest > validity::widest_contrast_of_second_order * least) return {greatest / share_of_some_curvature, 1.0 / 3.0};
+  if (is_slow || least_ratio < validity::thin_sharp_ratio)
+    return {std::max(reynolds_number, greatest / share_of_two_times), 0.0};
+  if (greatest > validity::widest_contrast_of_second_order * least)
+    return {greatest / share_of_some_curvature, 1.0 / 3.0};
   return {std::clamp(reynolds_number, greatest / greatest_share, least / least_share), 1.0};
 }
 
