@@ -65,9 +65,12 @@ constexpr double slow_reynolds_number_of_phases = 0.1;
 /// PhaseInertia::splitting).
 constexpr double widest_contrast_of_second_order = 5.0;
 
-/// Sharp membranes in a fluid of a larger Reynolds number than this are quiet on grids of up to so many spacings per radius (S, tried to 10):
-/// with 12, Re = 9 and Ca = 1.2 blows up at ratio 0.6 and grows noisy at 1 and 1.7, whatever step and sigma0; at Re = 5 it is quiet.
-constexpr double largest_reynolds_number_of_fine_sharp = 5.0, most_cells_per_radius_with_inertia_of_sharp = 8.0;
+/// Sharp membranes in a fluid of a larger Reynolds number than this are quiet on grids of up to
+/// most_cells_per_radius_with_inertia_of_sharp spacings per radius (S, tried to 10): with 12, Re = 9 and Ca = 1.2 blows up at ratio 0.6 and grows
+/// noisy at 1 and 1.7, whatever step and sigma0; at Re = 5 it is quiet.
+constexpr double largest_reynolds_number_of_fine_sharp = 5.0;
+/// With more of these, Reynolds numbers above largest_reynolds_number_of_fine_sharp are not.
+constexpr double most_cells_per_radius_with_inertia_of_sharp = 8.0;
 
 /// Nearest that a sharp membrane comes to a wall, in spacings: nearer, markers would read points beyond it.
 constexpr double sharp_wall_clearance = 1.5;
