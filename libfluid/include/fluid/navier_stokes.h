@@ -48,6 +48,7 @@ enum class ViscousTreatment {
 /// In which numbers the velocity of a step is solved for.
 enum class Precision {
   double_,  ///< double precision
+
   /// Single precision within fast transforms, for what changes: the solve is for u* - u^k, from a residual in double
   /// precision. All else stays double, the pressure too: its second derivatives would turn round-off of single
   /// precision into divergence, and it is a quarter of the solves only. Errors: docs/performance.md
