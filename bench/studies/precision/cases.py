@@ -352,17 +352,15 @@ def tilted_case(quick):
                        {"angle": "inclination_angle_deg", "deformation": "deformation"}, quick)
 
 
-def sharp_preset_case(name, title, keys, columns, quick, steps=96, cells=128):
+def sharp_preset_case(name, title, keys, columns, quick, steps=96, cells=128, grids=(128, 96), mesh=64):
     """What method.accuracy chooses where it takes sharp membranes, on a scene that was not used to choose it."""
     width = 8.0
     levels = ((64, "1e-2"), (cells, "1e-3"))[:1 if quick else 2]
     sweeps = [(f"accuracy {level}", "level", {"cells": n, "method.accuracy": level}) for n, level in levels]
-    # With inertia meshes much denser than the grid carry noise.
-    with_inertia = steps > 96
-    fine = SHARP | {"mesh.latitudes": (24 if quick else 48) if with_inertia else 40 if quick else 64, "time.step": f"1/{steps}"}
-    grids = (64, 48) if quick else (128, 96)
+    fine = SHARP | {"mesh.latitudes": 40 if quick else mesh, "time.step": f"1/{steps}"}
+    grids = (64, 48) if quick else grids
     sweeps += [("sharp", "grid", {"cells": n, "mesh.latitudes": latitudes(width, n), "time.step": "1/96"} | SHARP) for n in (32, 40, 48)]
-    step = SHARP | ({"cells": 48, "mesh.latitudes": 24} if with_inertia else {"cells": 40, "mesh.latitudes": 32})
+    step = SHARP | ({"cells": 48, "mesh.latitudes": 24} if steps > 96 else {"cells": 40, "mesh.latitudes": 32})
     return Case(
         name, f"not used in the choice: {title}", "scenes/poiseuille_off_axis.toml",
         {"output.diagnostics_every": 0.25, "output.vesicle_every": 1, "output.checkpoint_every": 2} | keys,
@@ -385,10 +383,11 @@ def unseen_inertia_case(quick):
 
 
 def unseen_thin_inertia_case(quick):
+    # 96 cells carry noise: docs/coupling.md, Fine grids and inertia.
     return sharp_preset_case("unseen_thin_inertia", "reduced volume 0.85, ratio 0.6, Re = 4, Ca = 1.2, off the axis of plane Poiseuille flow, to t = 3",
                              {"fluid.viscosity_ratio": 0.6, "fluid.reynolds_number": 4, "membrane.capillary_number": 1.2, "vesicles.0.reduced_volume": 0.85,
                               "time.end": 3},
-                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick, 192, 144)
+                             {"angle": "inclination_angle_deg", "frequency": "tank_treading_frequency", "deformation": "deformation"}, quick, 192, 144, (128, 64), 40)
 
 
 def sharp_contrast_case(quick):
